@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <granflux/cfd/box_mesh.hpp>
+
+namespace granflux::cfd {
+
+struct Fluid {
+  double density = 1.2;     ///< kg/m3
+  double viscosity = 1.8e-5; ///< dynamic viscosity, Pa s
+  /// m/s2. Constant density makes the hydrostatic part exact: the solver carries the dynamic
+  /// pressure p - rho g.x, and particles feel -rho V g beside its gradient.
+  Vec3 gravity{};
+  bool gravity_given = false;      ///< false: a host may supply its own
+  Vec3 driving_pressure_gradient{}; ///< imposed mean of grad p [Pa/m], for periodic directions
+};
+
+enum class BoundaryKind { inlet, outlet, wall, slip };
+
+struct BoundaryCondition {
+  std::string name; ///< that of the mesh's boundary
+  BoundaryKind kind = BoundaryKind::wall;
+  /// Inlet: superficial velocity (volume flux per area, void fraction included) [m/s], the mean of
+  /// the profile. Wall: velocity of the wall, tangential [m/s].
+  Vec3 velocity{};
+  enum class Profile { uniform, parabolic } profile = Profile::uniform;
+  double ramp_time = 0;    ///< s; the inlet velocity grows linearly from ramp_from * velocity
+  double ramp_from = 0;    ///< share of the velocity at time 0
+  double pressure = 0;     ///< outlet: dynamic pressure at the face [Pa]
+};
+
+enum class ConvectionScheme { central, upwind2, limited };
+
+struct Numerics {
+  ConvectionScheme convection = ConvectionScheme::limited;
+  double pressure_tolerance = 1e-10; ///< of the residual, relative to the right-hand side
+  double viscous_tolerance = 1e-10;
+  double time_step = 0; ///< s; for a run without particles
+  double end_time = 0;  ///< s; likewise
+};
+
+struct Output {
+  std::string fields;    ///< path of the CGNS files without ending; empty: none
+  double every = 0;      ///< s of simulated time between two of them
+};
+
+/// All that defines a gas run. Plain data; read_gas_case fills it from a TOML file.
+struct GasCase {
+  BoxGrid grid;
+  Fluid fluid;
+  std::vector<BoundaryCondition> boundaries;
+  Numerics numerics;
+  Output output;
+  Vec3 initial_velocity{};
+};
+
+} // namespace granflux::cfd

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <granflux/cfd/gas_case.hpp>
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::cfd {
+
+/// What a second phase does to the gas over one step, per unit of volume, on interior cells. The
+/// momentum it gives to the gas is
+///   drag_source - drag_coefficient * u  +  (1 - pressure_fraction) * grad p    [N/m3]
+/// with u and p at the end of the step (the coefficient is taken implicitly, in the predictor and
+/// in the pressure equation).
+struct MomentumExchange {
+  BlockFields drag_coefficient; ///< beta >= 0 [kg/(m3 s)]
+  BlockVectors drag_source;     ///< [N/m3]
+  /// Share of the pressure gradient that the gas bears: the void fraction in model A, 1 in model B.
+  BlockFields pressure_fraction;
+};
+MomentumExchange make_exchange(const Mesh& mesh);
+
+/// Integrals over all blocks and all ranks of the terms of the last step; equal on every rank.
+struct Balance {
+  double gas_volume_change = 0;   ///< d(sum eps V)/dt [m3/s]
+  double boundary_volume_flux = 0; ///< out of the domain [m3/s]
+  Vec3 momentum;                  ///< of the gas at the end of the step [kg m/s]
+  Vec3 momentum_change;           ///< rate over the step [N]
+  Vec3 convection, friction, pressure; ///< through the boundaries, into the gas [N]
+  Vec3 driving;                   ///< of the driving pressure gradient [N]
+  Vec3 exchange;                  ///< from the second phase [N]
+  /// momentum_change - convection - friction - pressure - driving - exchange [N]
+  Vec3 momentum_residual;
+  /// sum of the magnitudes of the terms above: what the residual is to be measured by [N]
+  double momentum_scale = 0;
+};
+
+struct StepReport {
+  double continuity_residual = 0;   ///< largest |d eps/dt + div(eps u)| of a cell [1/s]
+  double continuity_scale = 0;      ///< largest sum of |fluxes| over volume of a cell [1/s]
+  int pressure_iterations = 0;      ///< 0 for a direct solve
+  double pressure_residual = 0;     ///< relative
+  int viscous_iterations = 0;       ///< most of the three components
+  double courant = 0;               ///< largest, by face fluxes and void fraction
+};
+
+/// Volume-averaged incompressible Navier-Stokes on a multi-block mesh: collocated finite volumes,
+/// fractional step, Adams-Bashforth convection, Crank-Nicolson diffusion (docs/theory.md).
+class GasSolver {
+public:
+  /// Throws ConfigError where a boundary of the mesh has no condition or a condition no boundary.
+  GasSolver(const Mesh& mesh, const GasCase& gas_case);
+  ~GasSolver();
+  GasSolver(const GasSolver&) = delete;
+  GasSolver& operator=(const GasSolver&) = delete;
+
+  /// Void fraction before the first step. Restarts the solver's history: the initial velocity is
+  /// made to satisfy continuity. Collective.
+  void initialise(const BlockFields& void_fraction, Vec3 velocity, double time = 0);
+
+  /// One step of dt. `void_fraction` is that at the end of the step; `exchange` may be null for a
+  /// gas alone. Collective. Throws NumericalError.
+  StepReport advance(double dt, const BlockFields& void_fraction, const MomentumExchange* exchange);
+
+  [[nodiscard]] double time() const;             ///< s
+  [[nodiscard]] long steps() const;
+  [[nodiscard]] const BlockVectors& velocity() const;      ///< interstitial [m/s], ghosts filled
+  [[nodiscard]] const BlockFields& pressure() const;       ///< dynamic [Pa], ghosts filled
+  [[nodiscard]] const BlockVectors& pressure_gradient() const; ///< driving part included [Pa/m]
+  [[nodiscard]] const BlockFields& void_fraction() const;  ///< at the end of the last step
+  [[nodiscard]] const Balance& balance() const;
+  [[nodiscard]] const Mesh& mesh() const;
+  [[nodiscard]] const Fluid& fluid() const;
+
+  /// Area-weighted mean of the dynamic pressure on a boundary [Pa]. Collective.
+  [[nodiscard]] double boundary_pressure(const std::string& boundary) const;
+  /// Volume flux out of the domain through a boundary [m3/s]. Collective.
+  [[nodiscard]] double boundary_flux(const std::string& boundary) const;
+
+  /// The solver's whole state of this rank's blocks, for a restart that continues bit for bit on
+  /// the same blocks; load throws ConfigError if the size does not fit.
+  [[nodiscard]] std::vector<double> save() const;
+  void load(const std::vector<double>& state);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace granflux::cfd

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::cfd {
+
+/// Fills ghost cells behind links from the cells they stand for, on this rank or another.
+/// Built once per mesh; copies and messages follow from precomputed index lists, so the
+/// orientation of a link costs nothing.
+class Halo {
+public:
+  explicit Halo(const Mesh& mesh);
+
+  /// Exchanges both ghost layers of the given fields (each on all local blocks) in one message
+  /// per neighbouring rank. Collective.
+  void exchange(std::initializer_list<BlockFields*> fields) const;
+  void exchange(BlockVectors& vectors) const;
+
+private:
+  struct Copy {
+    int from_block, to_block; ///< indices into Mesh::local
+    std::ptrdiff_t from, to;
+  };
+  struct Message {
+    int rank = 0;
+    std::vector<std::pair<int, std::ptrdiff_t>> cells; ///< local block and position
+  };
+  template <class At> void exchange_values(int count, At&& at) const;
+
+  MPI_Comm comm_;
+  std::vector<Copy> copies_;
+  std::vector<Message> sends_, receives_;
+};
+
+} // namespace granflux::cfd

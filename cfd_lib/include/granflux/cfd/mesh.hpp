@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <functional>
+#include <mpi.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <granflux/cfd/field.hpp>
+#include <granflux/cfd/vec3.hpp>
+
+namespace granflux::cfd {
+
+/// A block has six sides; direction 0, 1, 2 is i, j, k.
+struct Side {
+  int direction = 0;
+  bool high = false;
+  friend bool operator==(const Side&, const Side&) = default;
+};
+
+/// Cells lo <= (i,j,k) < hi of one block.
+struct IndexBox {
+  Index3 lo{}, hi{};
+  [[nodiscard]] bool contains(const Index3& c) const {
+    return c[0] >= lo[0] && c[1] >= lo[1] && c[2] >= lo[2] && c[0] < hi[0] && c[1] < hi[1] &&
+           c[2] < hi[2];
+  }
+};
+
+/// One-to-one connection: cell c of this block, continued past the side, is donor cell
+/// offset[d] + sign[d] * c[axis[d]] for d = 0, 1, 2. Any orientation.
+struct Link {
+  int block = -1;
+  Index3 axis{0, 1, 2}, sign{1, 1, 1}, offset{};
+  [[nodiscard]] Index3 donor(const Index3& c) const {
+    return {offset[0] + sign[0] * c[std::size_t(axis[0])],
+            offset[1] + sign[1] * c[std::size_t(axis[1])],
+            offset[2] + sign[2] * c[std::size_t(axis[2])]};
+  }
+};
+
+/// A rectangle of one side: its inner cells, and what lies beyond: another block or a boundary.
+struct Patch {
+  Side side;
+  IndexBox cells;            ///< the layer of interior cells that touch the patch
+  int boundary = -1;         ///< index into Mesh::boundaries, or -1 for a link
+  std::optional<Link> link;  ///< set where boundary is -1
+};
+
+/// What every rank knows of every block.
+struct BlockInfo {
+  Index3 cells{};
+  int rank = 0;
+  std::vector<Patch> patches; ///< together they cover the six sides once
+};
+
+/// Node (i,j,k) of a block, 0 <= i <= cells[0]; may be called with ghost indices.
+using NodeMap = std::function<Vec3(int i, int j, int k)>;
+
+/// Geometry of one block that this rank owns, all by finite-volume sums over node positions.
+struct Block {
+  int id = 0; ///< index into Mesh::blocks
+  Layout layout;
+  VectorField centre;              ///< cell centres [m], ghosts included
+  Field volume;                    ///< cell volumes [m3], ghosts included
+  std::array<VectorField, 3> area; ///< area[d]: vector of the low face in direction d [m2]
+  /// conductance[d] = |S|^2 / (S . dx), the two-point part of S . grad over a face [m].
+  std::array<Field, 3> conductance;
+  /// weight[d]: share of the high cell in linear interpolation to the low face in direction d.
+  std::array<Field, 3> weight;
+};
+
+/// A straight box of cells, cut into blocks along coordinate planes: what makes locating a point
+/// a matter of arithmetic. Every rank holds it whole.
+struct Lattice {
+  std::array<std::vector<double>, 3> nodes; ///< node coordinates along x, y, z [m], increasing
+  std::array<bool, 3> periodic{};
+  std::array<std::vector<int>, 3> starts;   ///< first cell of each slab of blocks, then the end
+
+  [[nodiscard]] Index3 cells() const {
+    return {int(nodes[0].size()) - 1, int(nodes[1].size()) - 1, int(nodes[2].size()) - 1};
+  }
+  [[nodiscard]] Index3 blocks() const {
+    return {int(starts[0].size()) - 1, int(starts[1].size()) - 1, int(starts[2].size()) - 1};
+  }
+  /// Block of a slab triple: i fastest.
+  [[nodiscard]] int block(const Index3& slab) const {
+    return slab[0] + blocks()[0] * (slab[1] + blocks()[1] * slab[2]);
+  }
+};
+
+/// Multi-block structured mesh, its blocks dealt out to the ranks of a communicator.
+struct Mesh {
+  MPI_Comm comm = MPI_COMM_WORLD;
+  std::vector<BlockInfo> blocks;       ///< all blocks
+  std::vector<Block> local;            ///< those of this rank, by increasing id
+  std::vector<std::string> boundaries; ///< names of the boundary patches
+  std::optional<Lattice> lattice;      ///< set for box meshes
+
+  [[nodiscard]] const BlockInfo& info(const Block& b) const { return blocks[std::size_t(b.id)]; }
+};
+
+/// Fills all of a block's geometry from its nodes. Throws ConfigError naming block and index where
+/// a cell has no positive volume.
+Block make_block(int id, Index3 cells, const NodeMap& node);
+
+/// Fields of the right shapes for the local blocks.
+BlockFields make_fields(const Mesh& mesh, double value = 0);
+BlockVectors make_vectors(const Mesh& mesh, Vec3 value = {});
+
+} // namespace granflux::cfd

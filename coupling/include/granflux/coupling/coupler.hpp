@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <granflux/cfd/gas_solver.hpp>
+#include <granflux/coupling/particle_view.hpp>
+
+namespace granflux::coupling {
+
+/// Which phase bears the pressure gradient (docs/theory.md): a: both, by volume; b: the gas alone,
+/// the particles' share folded into the drag (beta_B = beta_A / eps).
+enum class MomentumModel { a, b };
+
+/// The [coupling] table of the case file.
+struct CouplingOptions {
+  std::string drag = "gidaspow";          ///< a name of DragLaws
+  std::string void_fraction = "smoothed"; ///< a name of the void-fraction kernels
+  double smoothing_width = 3;             ///< of the smoothed kernel, in particle diameters
+  MomentumModel model = MomentumModel::a;
+  /// A cell below this void fraction stops the run; nothing is clamped.
+  double void_fraction_floor = 0.05;
+};
+
+/// Sums over all ranks at one coupling step; equal on every rank.
+struct ExchangeReport {
+  cfd::StepReport gas;
+  long particles = 0;          ///< coupled, inside the grid
+  long outside = 0;            ///< in the fix group but outside the gas grid: not coupled
+  double particle_volume = 0;  ///< sum V_p of the coupled particles [m3]
+  double volume_residual = 0;  ///< |sum (1-eps) V - sum V_p| / sum V_p
+  double void_fraction_min = 1;
+  Vec3 drag;                   ///< mean force of the gas on all particles over the last interval [N]
+  Vec3 pressure_force;         ///< sum of pressure_force over the particles [N]
+  /// Momentum ledger. Impulse taken from the gas and impulse received by particles since the
+  /// start differ by `in_transit` (applied after the last gas step, handed over in the next) and
+  /// `carried_out` (by particles that left before the hand-over); `residual` is what remains.
+  Vec3 impulse_from_gas, impulse_to_particles, in_transit, carried_out; ///< N s
+  double momentum_residual = 0; ///< |remainder| / sum of |impulses| exchanged
+  double slip_reynolds_max = 0;
+  long law_out_of_range = 0;   ///< particles outside the drag law's range of validity
+};
+
+/// Seconds spent, this rank.
+struct CouplingTimes {
+  double gas = 0, locate = 0, deposit = 0, sample = 0, messages = 0, force = 0;
+};
+
+/// Two-way coupling of particles that a host moves with the gas of cfd_lib. One coupling step:
+/// locate, weigh, deposit void fraction and drag, advance the gas, sample it at the particles.
+class Coupler {
+public:
+  Coupler(const cfd::GasCase& gas_case, const CouplingOptions& options, MPI_Comm comm);
+  ~Coupler();
+  Coupler(const Coupler&) = delete;
+  Coupler& operator=(const Coupler&) = delete;
+
+  /// Before the first step: void fraction of the particles where they are, gas at its initial
+  /// state. Throws ConfigError where a coupled particle lies outside the gas grid. Collective.
+  void initialise(const ParticleView& particles, double time);
+
+  /// Coupling step: advances the gas over `interval` seconds and renews every FluidState (drag
+  /// coefficient, gas velocity, pressure force, booked impulse). Collective; throws
+  /// NumericalError on every rank alike.
+  const ExchangeReport& exchange(const ParticleView& particles, double interval);
+
+  /// Every particle step, with all other forces in view.force: adds the fluid force, exact for
+  /// constant gas velocity and other forces over `dt`, however stiff the drag. `share` of the
+  /// impulse force * dt is booked as received (1; 1/2 for a kick that the integrator halves).
+  void apply(const ParticleView& particles, double dt, double share = 1);
+  /// Takes back the part of the last force's impulse that the integrator never applied.
+  void unapply(const ParticleView& particles, double dt, double share);
+
+  [[nodiscard]] const ExchangeReport& report() const;
+  [[nodiscard]] const CouplingTimes& times() const;
+  [[nodiscard]] cfd::GasSolver& gas();
+  [[nodiscard]] const cfd::Mesh& mesh() const;
+
+  /// Solver state and ledger of this rank for an exact restart; see GasSolver::save.
+  [[nodiscard]] std::vector<double> save() const;
+  void load(const std::vector<double>& state);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace granflux::coupling
