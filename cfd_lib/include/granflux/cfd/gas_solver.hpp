@@ -46,6 +46,9 @@ struct StepReport {
   double pressure_residual = 0;     ///< relative
   int viscous_iterations = 0;       ///< most of the three components
   double courant = 0;               ///< largest, by face fluxes and void fraction
+  /// The void fraction jumped so far that extrapolating it would have left the gas without
+  /// inertia somewhere: the time history was begun anew (first order for this one step).
+  bool history_restarted = false;
 };
 
 /// Volume-averaged incompressible Navier-Stokes on a multi-block mesh: collocated finite volumes,

@@ -64,6 +64,7 @@ using NodeMap = std::function<Vec3(int i, int j, int k)>;
 struct Block {
   int id = 0; ///< index into Mesh::blocks
   Layout layout;
+  VectorField node;                ///< low corner of each cell [m], ghosts included
   VectorField centre;              ///< cell centres [m], ghosts included
   Field volume;                    ///< cell volumes [m3], ghosts included
   std::array<VectorField, 3> area; ///< area[d]: vector of the low face in direction d [m2]
@@ -102,6 +103,16 @@ struct Mesh {
 
   [[nodiscard]] const BlockInfo& info(const Block& b) const { return blocks[std::size_t(b.id)]; }
 };
+
+/// A cell of any block.
+struct CellRef {
+  int block = 0;
+  Index3 cell{};
+};
+
+/// Follows links until `ref` is an interior cell; nothing where it lies behind a boundary. `ref`
+/// may be outside its block along one direction only.
+std::optional<CellRef> resolve(const Mesh& mesh, CellRef ref);
 
 /// Fills all of a block's geometry from its nodes. Throws ConfigError naming block and index where
 /// a cell has no positive volume.
