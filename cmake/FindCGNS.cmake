@@ -1,0 +1,17 @@
+# SPDX-FileCopyrightText: 2026 The GranFlux developers
+# SPDX-License-Identifier: BSD-3-Clause
+
+# The CGNS library (Debian: libcgns-dev), which installs neither a CMake nor a pkg-config file.
+# Defines CGNS::CGNS.
+find_path(CGNS_INCLUDE_DIR cgnslib.h)
+find_library(CGNS_LIBRARY cgns)
+mark_as_advanced(CGNS_INCLUDE_DIR CGNS_LIBRARY)
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CGNS REQUIRED_VARS CGNS_LIBRARY CGNS_INCLUDE_DIR)
+
+if(CGNS_FOUND AND NOT TARGET CGNS::CGNS)
+  add_library(CGNS::CGNS UNKNOWN IMPORTED)
+  set_target_properties(CGNS::CGNS PROPERTIES IMPORTED_LOCATION "${CGNS_LIBRARY}"
+                                              INTERFACE_INCLUDE_DIRECTORIES "${CGNS_INCLUDE_DIR}")
+endif()

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+// main of every test program: all ranks run the same tests, rank 0 reports their course, and each
+// rank reports its own failures. The exit code is the worst of all ranks.
+
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <mpi.h>
+#include <sstream>
+
+namespace {
+
+/// Prints the failures of one rank as a whole, so that those of several ranks do not mix.
+class RankFailures : public testing::EmptyTestEventListener {
+public:
+  explicit RankFailures(int rank) : rank_(rank) {}
+
+private:
+  void OnTestPartResult(const testing::TestPartResult& result) override {
+    if (!result.failed()) return;
+    std::ostringstream text;
+    text << "[rank " << rank_ << "] " << (result.file_name() ? result.file_name() : "unknown file")
+         << ':' << result.line_number() << ": Failure\n"
+         << result.message() << '\n';
+    std::fputs(text.str().c_str(), stderr);
+    std::fflush(stderr);
+  }
+  void OnTestEnd(const testing::TestInfo& info) override {
+    if (!info.result()->Failed()) return;
+    std::fprintf(stderr, "[rank %d] FAILED %s.%s\n", rank_, info.test_suite_name(), info.name());
+    std::fflush(stderr);
+  }
+  int rank_;
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  testing::InitGoogleTest(&argc, argv);
+
+  auto& listeners = testing::UnitTest::GetInstance()->listeners();
+  if (rank != 0) {
+    delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new RankFailures(rank));
+  }
+  int failed = RUN_ALL_TESTS();
+  // A program whose tests were all filtered away has shown nothing.
+  if (testing::UnitTest::GetInstance()->test_to_run_count() == 0) failed = 1;
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return failed;
+}
