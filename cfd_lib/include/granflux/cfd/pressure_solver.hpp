@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::cfd {
+
+/// sum over the six faces of a cell of  coefficient * (p_neighbour - p_cell)  =  rhs_cell.
+/// A face on a boundary has coefficient 0, or, where the pressure is given, that of a neighbour
+/// at pressure 0 (its value is already in the right-hand side).
+struct PressureSystem {
+  std::vector<std::array<Field, 3>> coefficient; ///< per local block and direction, on low faces
+  BlockFields rhs;
+};
+
+struct PressureReport {
+  int iterations = 0; ///< 0 for a direct solve
+  double residual = 0; ///< norm of the remaining error in the equations over that of rhs
+};
+
+class PressureSolver {
+public:
+  virtual ~PressureSolver() = default;
+  /// Collective. `p` holds a first guess and receives the solution on interior cells. A singular
+  /// system (no pressure given anywhere) gets the solution of zero mean.
+  virtual PressureReport solve(const PressureSystem& system, BlockFields& p) = 0;
+};
+
+/// Gathers the system on rank 0 and solves it there with Eigen: directly (LDL^T) up to
+/// `largest_direct` cells, else by conjugate gradients with incomplete Cholesky to `tolerance`.
+/// The same bits for any number of ranks and threads.
+std::unique_ptr<PressureSolver> make_eigen_pressure_solver(const Mesh& mesh, bool singular,
+                                                           double tolerance);
+
+} // namespace granflux::cfd
