@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <string_view>
+
+#include <granflux/coupling/lattice_locate.hpp>
+
+namespace granflux::coupling {
+
+/// The cells one particle touches.
+struct ParticlePlace {
+  Vec3 centre;        ///< m
+  double radius = 0;  ///< m
+  cfd::Index3 cell{}; ///< unwrapped cell of the centre
+};
+
+/// The contract of all void-fraction kernels: called with a particle and emit(cell, weight), a
+/// kernel emits each cell that gets a share of the particle once, with its unwrapped index triple
+/// and weight > 0. The weights sum to 1 to round-off. Along directions that are not periodic no
+/// cell outside the domain is emitted. `smooths`: the coupler passes the deposited fields, and the
+/// gas fields it samples, through Smoothing.
+template <class K>
+concept VoidFractionKernel = std::default_initializable<K> &&
+    requires(const K kernel, const LatticeLocator& lattice, const ParticlePlace& particle) {
+  { K::name } -> std::convertible_to<std::string_view>;
+  { K::smooths } -> std::convertible_to<bool>;
+  kernel(lattice, particle, [](const cfd::Index3&, double) {});
+};
+
+} // namespace granflux::coupling

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <granflux/coupling/kernel/centre.hpp>
+#include <granflux/coupling/kernel/divided.hpp>
+#include <granflux/coupling/kernel/smoothed.hpp>
+#include <granflux/coupling/kernel/trilinear.hpp>
+#include <granflux/coupling/law_list.hpp>
+
+namespace granflux::coupling {
+
+/// All kernels a case may name; a new one is one file and one word here.
+using VoidFractionKernels = LawList<Centre, Divided, Trilinear, Smoothed>;
+using AnyKernel = VoidFractionKernels::Any;
+
+} // namespace granflux::coupling

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <granflux/coupling/kernel/trilinear.hpp>
+
+namespace granflux::coupling {
+
+/// Trilinear deposit, then conservative diffusion of the gas fields over a length set in particle
+/// diameters (Smoothing): the void fraction no longer depends on the cell size, and cells may be
+/// smaller than particles.
+struct Smoothed : Trilinear {
+  static constexpr std::string_view name = "smoothed";
+  static constexpr bool smooths = true;
+};
+
+} // namespace granflux::coupling

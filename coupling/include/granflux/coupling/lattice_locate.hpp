@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::coupling {
+
+/// Cells along one direction of the lattice, made ready for many look-ups.
+class LatticeAxis {
+public:
+  LatticeAxis() = default;
+  LatticeAxis(const std::vector<double>& nodes, bool periodic);
+
+  [[nodiscard]] int cells() const { return cells_; }
+  [[nodiscard]] bool periodic() const { return periodic_; }
+  /// m; the period of a periodic direction
+  [[nodiscard]] double length() const { return nodes_.back() - nodes_.front(); }
+
+  /// Cell that holds x; a point on a face belongs to the cell above it, the upper end of a
+  /// direction that is not periodic to the last cell. Nothing if x is outside or not a number.
+  /// Along a periodic direction the index goes on below 0 and past the last cell.
+  [[nodiscard]] std::optional<int> cell(double x) const;
+  /// Unwrapped index to 0 <= i < cells; the identity where the direction is not periodic.
+  [[nodiscard]] int wrap(int i) const;
+  /// Centre of a cell [m]; along a periodic direction of any unwrapped one.
+  [[nodiscard]] double centre(int i) const;
+  /// The image of x at most one period outside the box; x itself where it already is.
+  [[nodiscard]] double fold(double x) const;
+
+private:
+  [[nodiscard]] int within(double x) const; ///< for x inside the box
+
+  std::vector<double> nodes_, centres_;
+  int cells_ = 0;
+  bool periodic_ = false;
+  bool uniform_ = false;
+  double per_length_ = 0; ///< cells per metre where uniform
+};
+
+/// Finds the cell of a point on the lattice: arithmetic on uniform directions, binary search on
+/// stretched ones.
+class LatticeLocator {
+public:
+  LatticeLocator() = default;
+  explicit LatticeLocator(const cfd::Lattice& lattice);
+
+  [[nodiscard]] const LatticeAxis& axis(int d) const { return axes_[std::size_t(d)]; }
+  /// Unwrapped cell triple; nothing for a point outside the domain.
+  [[nodiscard]] std::optional<cfd::Index3> cell(const Vec3& x) const;
+  /// The lattice cell that an unwrapped triple stands for.
+  [[nodiscard]] cfd::Index3 wrap(const cfd::Index3& c) const {
+    return {axes_[0].wrap(c[0]), axes_[1].wrap(c[1]), axes_[2].wrap(c[2])};
+  }
+  /// The periodic image of x that lies in the box or within one period of it: a host may hand over
+  /// particles that it has not wrapped yet, and the window must not grow with how far they went.
+  [[nodiscard]] Vec3 fold(const Vec3& x) const {
+    return {axes_[0].fold(x.x), axes_[1].fold(x.y), axes_[2].fold(x.z)};
+  }
+
+private:
+  std::array<LatticeAxis, 3> axes_;
+};
+
+} // namespace granflux::coupling
