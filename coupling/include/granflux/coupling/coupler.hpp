@@ -28,20 +28,26 @@ struct CouplingOptions {
 /// Sums over all ranks at one coupling step; equal on every rank.
 struct ExchangeReport {
   cfd::StepReport gas;
-  long particles = 0;          ///< coupled, inside the grid
-  long outside = 0;            ///< in the fix group but outside the gas grid: not coupled
-  double particle_volume = 0;  ///< sum V_p of the coupled particles [m3]
-  double volume_residual = 0;  ///< |sum (1-eps) V - sum V_p| / sum V_p
+  long particles = 0;         ///< coupled, inside the grid
+  long outside = 0;           ///< in the fix group but outside the gas grid: not coupled
+  double particle_volume = 0; ///< sum V_p of the coupled particles [m3]
+  double volume_residual = 0; ///< |sum (1-eps) V - sum V_p| / sum V_p
   double void_fraction_min = 1;
-  Vec3 drag;                   ///< mean force of the gas on all particles over the last interval [N]
-  Vec3 pressure_force;         ///< sum of pressure_force over the particles [N]
-  /// Momentum ledger. Impulse taken from the gas and impulse received by particles since the
-  /// start differ by `in_transit` (applied after the last gas step, handed over in the next) and
-  /// `carried_out` (by particles that left before the hand-over); `residual` is what remains.
-  Vec3 impulse_from_gas, impulse_to_particles, in_transit, carried_out; ///< N s
+  /// Mean drag on all particles as the gas was charged for it over the interval, what the last
+  /// interval was charged too little or too much included [N].
+  Vec3 drag;
+  Vec3 pressure_force; ///< sum of -V grad p over the particles [N]
+  /// Momentum ledger since the start, buoyancy left out [N s]:
+  ///   impulse_from_gas = impulse_to_particles + in_transit + carried_out + remainder.
+  /// The first is by the gas's own balance; in_transit was charged to the gas and is still to be
+  /// applied to the particles; carried_out went with particles that left in between.
+  Vec3 impulse_from_gas, impulse_to_particles, in_transit, carried_out;
   double momentum_residual = 0; ///< |remainder| / sum of |impulses| exchanged
+  /// |rate of the gas's momentum - forces through its boundaries - driving force + impulse that the
+  /// particles were booked / interval| over the gas's Balance::momentum_scale: one budget of both.
+  double budget_residual = 0;
   double slip_reynolds_max = 0;
-  long law_out_of_range = 0;   ///< particles outside the drag law's range of validity
+  long law_out_of_range = 0; ///< particles outside the drag law's range of validity
 };
 
 /// Seconds spent, this rank.
@@ -63,13 +69,14 @@ public:
   void initialise(const ParticleView& particles, double time);
 
   /// Coupling step: advances the gas over `interval` seconds and renews every FluidState (drag
-  /// coefficient, gas velocity, pressure force, booked impulse). Collective; throws
-  /// NumericalError on every rank alike.
+  /// coefficient, gas velocity, pressure force, booked impulse). Particles outside the gas grid
+  /// are left alone and counted. Collective; throws NumericalError on every rank alike.
   const ExchangeReport& exchange(const ParticleView& particles, double interval);
 
   /// Every particle step, with all other forces in view.force: adds the fluid force, exact for
-  /// constant gas velocity and other forces over `dt`, however stiff the drag. `share` of the
-  /// impulse force * dt is booked as received (1; 1/2 for a kick that the integrator halves).
+  /// constant gas velocity and other forces over `dt`, however stiff the drag, and buoyancy.
+  /// `share` of the impulse force * dt is booked as received (1; 1/2 for a kick that the
+  /// integrator halves).
   void apply(const ParticleView& particles, double dt, double share = 1);
   /// Takes back the part of the last force's impulse that the integrator never applied.
   void unapply(const ParticleView& particles, double dt, double share);
@@ -79,7 +86,8 @@ public:
   [[nodiscard]] cfd::GasSolver& gas();
   [[nodiscard]] const cfd::Mesh& mesh() const;
 
-  /// Solver state and ledger of this rank for an exact restart; see GasSolver::save.
+  /// Solver state and ledger of this rank for an exact restart; see GasSolver::save. load() takes
+  /// the place of initialise(); the host keeps the FluidStates.
   [[nodiscard]] std::vector<double> save() const;
   void load(const std::vector<double>& state);
 

@@ -15,10 +15,12 @@ struct FluidState {
   double drag_coefficient = 0; ///< b [kg/s]: drag on the particle is b (gas_velocity - velocity)
   double void_fraction = 0;    ///< at the particle [-]; 0: not yet coupled
   Vec3 gas_velocity;           ///< at the particle [m/s]
-  Vec3 pressure_force;         ///< -V grad p - rho_gas V g: does not depend on the velocity [N]
-  Vec3 force;                  ///< fluid force on the particle applied last [N]
-  Vec3 impulse;                ///< applied to the particle since the last coupling step [N s]
-  Vec3 booked;                 ///< taken from the gas for it at that coupling step [N s]
+  Vec3 pressure_force;         ///< -V grad p of the dynamic pressure, 0 in model B [N]
+  Vec3 force;                  ///< fluid force applied last: drag, pressure and buoyancy [N]
+  /// Applied since the last coupling step, buoyancy left out: the hydrostatic pressure balances the
+  /// gas's own weight and is not exchanged [N s].
+  Vec3 impulse;
+  Vec3 booked; ///< taken from the gas for it at that coupling step [N s]
 };
 inline constexpr int fluid_state_doubles = 17;
 static_assert(sizeof(FluidState) == fluid_state_doubles * sizeof(double));
@@ -26,11 +28,11 @@ static_assert(sizeof(FluidState) == fluid_state_doubles * sizeof(double));
 /// The host's own particles of this rank (no ghosts), borrowed: valid until the host moves again.
 /// All spans have one entry a particle, or are empty where noted. SI units.
 struct ParticleView {
-  std::span<const Vec3> position; ///< m
-  std::span<Vec3> velocity;       ///< m/s
-  std::span<Vec3> force;          ///< on the particle [N]; accumulated into
-  std::span<const double> radius; ///< m
-  std::span<const double> mass;   ///< kg
+  std::span<const Vec3> position;   ///< m
+  std::span<Vec3> velocity;         ///< m/s
+  std::span<Vec3> force;            ///< on the particle [N]; accumulated into
+  std::span<const double> radius;   ///< m
+  std::span<const double> mass;     ///< kg
   std::span<const std::int64_t> id; ///< unique over all ranks; may be empty, only named in errors
   std::span<FluidState> fluid;
   /// 1: coupled. 0: left alone (outside the fix group): no volume, no force. Empty: all coupled.

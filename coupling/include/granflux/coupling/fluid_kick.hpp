@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include <granflux/cfd/vec3.hpp>
+
+namespace granflux::coupling {
+
+/// Response of a particle with linear drag over a time T, lambda = b T / m >= 0 (docs/
+/// theory_coupling.md, section 3).
+struct DragResponse {
+  double mean = 1; ///< (1 - exp(-lambda)) / lambda: mean of exp(-b t/m) over the time [-]
+  double lag = 0;  ///< mean - 1, to full relative precision however small lambda [-]
+};
+
+[[nodiscard]] inline DragResponse drag_response(double lambda) {
+  // Below the limit the series is as exact as expm1 and cheaper; above, expm1 no longer cancels.
+  if (lambda < 0.05) {
+    const double x = -lambda;
+    const double lag =
+        x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7 * (1 + x / 8))))));
+    return {1 + lag, lag};
+  }
+  const double mean = -std::expm1(-lambda) / lambda;
+  return {mean, mean - 1};
+}
+
+/// Coefficient with which drag of coefficient b [kg/s] acts on the gas over `interval` [s]: the
+/// mean drag on a free particle of mass m [kg] is this times its slip at the start [kg/s].
+[[nodiscard]] inline double effective_coefficient(double b, double mass, double interval) {
+  return b * drag_response(b * interval / mass).mean;
+}
+
+/// Drag [N] whose impulse over `dt` takes a particle from `velocity` to the exact end of
+/// m dv/dt = b (gas_velocity - v) + other, when `other` itself is applied as well.
+/// lambda = b dt/m; 0 for a particle held in place, which gives the drag at its velocity.
+[[nodiscard]] inline Vec3 exact_drag(double b, double lambda, const Vec3& gas_velocity,
+                                     const Vec3& velocity, const Vec3& other) {
+  const DragResponse r = drag_response(lambda);
+  return b * r.mean * (gas_velocity - velocity) + r.lag * other;
+}
+
+} // namespace granflux::coupling

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <granflux/coupling/ledger.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include <granflux/cfd/error.hpp>
+
+namespace granflux::coupling {
+
+namespace {
+
+/// All that travels in the one reduction of an exchange.
+struct Books {
+  ExchangeSums sums;
+  CompensatedVec3 applied, booked_before, handed_over_before;
+  CompensatedSum exchanged_before;
+
+  Books& operator+=(const Books& o) & {
+    sums += o.sums;
+    applied += o.applied;
+    booked_before += o.booked_before;
+    handed_over_before += o.handed_over_before;
+    exchanged_before += o.exchanged_before;
+    return *this;
+  }
+};
+static_assert(std::is_trivially_copyable_v<Books>);
+
+void add_books(void* in, void* inout, int* count, MPI_Datatype*) {
+  for (int i = 0; i < *count; ++i) {
+    Books a, b;
+    char* at = static_cast<char*>(inout) + std::size_t(i) * sizeof(Books);
+    std::memcpy(&a, static_cast<char*>(in) + std::size_t(i) * sizeof(Books), sizeof a);
+    std::memcpy(&b, at, sizeof b);
+    a += b; // in rank order: the lower ranks' sum comes first
+    std::memcpy(at, &a, sizeof a);
+  }
+}
+
+void push(std::vector<double>& state, const CompensatedSum& s) {
+  state.push_back(s.high);
+  state.push_back(s.low);
+}
+
+void push(std::vector<double>& state, const CompensatedVec3& s) {
+  push(state, s.x), push(state, s.y), push(state, s.z);
+}
+
+const double* pull(const double* state, CompensatedSum& s) {
+  s = {state[0], state[1]};
+  return state + 2;
+}
+
+const double* pull(const double* state, CompensatedVec3& s) {
+  return pull(pull(pull(state, s.x), s.y), s.z);
+}
+
+} // namespace
+
+ExchangeSums& ExchangeSums::operator+=(const ExchangeSums& o) & {
+  particles += o.particles;
+  outside += o.outside;
+  law_out_of_range += o.law_out_of_range;
+  particle_volume += o.particle_volume;
+  solid_volume += o.solid_volume;
+  drag += o.drag;
+  pressure_force += o.pressure_force;
+  booked += o.booked;
+  handed_over += o.handed_over;
+  exchanged += o.exchanged;
+  slip_reynolds_max = std::max(slip_reynolds_max, o.slip_reynolds_max);
+  void_fraction_min = std::min(void_fraction_min, o.void_fraction_min);
+  return *this;
+}
+
+Ledger::Ledger(MPI_Comm comm) : comm_(comm) {
+  MPI_Type_contiguous(int(sizeof(Books)), MPI_BYTE, &type_);
+  MPI_Type_commit(&type_);
+  MPI_Op_create(add_books, 0, &op_);
+}
+
+Ledger::~Ledger() {
+  MPI_Op_free(&op_);
+  MPI_Type_free(&type_);
+}
+
+void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double interval,
+                   ExchangeReport& report) {
+  Books mine{local, applied_, booked_, handed_over_, exchanged_};
+  booked_ += local.booked;
+  handed_over_ += local.handed_over;
+  exchanged_ += local.exchanged;
+  from_gas_ += -interval * gas.exchange;
+
+  Books all;
+  MPI_Allreduce(&mine, &all, 1, type_, op_, comm_);
+  const ExchangeSums& sums = all.sums;
+
+  report.particles = long(sums.particles);
+  report.outside = long(sums.outside);
+  report.law_out_of_range = long(sums.law_out_of_range);
+  report.slip_reynolds_max = sums.slip_reynolds_max;
+  report.void_fraction_min = sums.void_fraction_min;
+  report.particle_volume = sums.particle_volume.value();
+  const double volume_error = std::abs(sums.solid_volume.value() - report.particle_volume);
+  report.volume_residual = volume_error > 0 ? volume_error / report.particle_volume : 0;
+  report.pressure_force = sums.pressure_force.value();
+  report.drag = sums.drag.value() + sums.handed_over.value() / interval;
+
+  // For particles still here, last interval's booked less impulse is -handed_over. What running
+  // sums miss beyond that went with the particles that are no longer here.
+  CompensatedVec3 missing = all.booked_before;
+  missing += all.handed_over_before;
+  missing += sums.handed_over;
+  missing += -all.applied;
+  report.impulse_to_particles = all.applied.value();
+  report.in_transit = sums.booked.value();
+  report.carried_out = missing.value();
+  report.impulse_from_gas = from_gas_.value();
+
+  const Vec3 remainder = report.impulse_from_gas - report.impulse_to_particles - report.in_transit -
+                         report.carried_out;
+  CompensatedSum exchanged = all.exchanged_before;
+  exchanged += sums.exchanged;
+  const double scale = exchanged.value();
+  report.momentum_residual = norm(remainder) > 0 ? norm(remainder) / scale : 0;
+
+  // Gas and particles as one: the gas's own terms against what the particles' side booked.
+  const Vec3 to_particles = (sums.booked.value() + sums.handed_over.value()) / interval;
+  const Vec3 open = gas.momentum_change - gas.convection - gas.friction - gas.pressure -
+                    gas.driving + to_particles;
+  report.budget_residual = norm(open) > 0 ? norm(open) / gas.momentum_scale : 0;
+}
+
+std::vector<double> Ledger::save() const {
+  std::vector<double> state;
+  push(state, applied_);
+  push(state, booked_);
+  push(state, handed_over_);
+  push(state, exchanged_);
+  push(state, from_gas_);
+  return state;
+}
+
+void Ledger::load(const std::vector<double>& state) {
+  if (state.size() != save().size())
+    throw ConfigError("restart: the coupling ledger has " + std::to_string(state.size()) +
+                      " numbers, expected " + std::to_string(save().size()));
+  const double* at = state.data();
+  at = pull(at, applied_);
+  at = pull(at, booked_);
+  at = pull(at, handed_over_);
+  at = pull(at, exchanged_);
+  pull(at, from_gas_);
+}
+
+} // namespace granflux::coupling

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <granflux/coupling/window_exchange.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace granflux::coupling {
+
+using cfd::Index3;
+
+namespace {
+
+constexpr int consensus_tag = 2101, deposit_tag = 2102, sample_tag = 2103;
+
+/// Cells of a window along one direction that lie in one slab of blocks.
+struct Run {
+  int slab = 0, window = 0, cell = 0, count = 0;
+};
+
+/// Splits lo <= i < lo + count along direction d into runs, through every periodic image.
+std::vector<Run> split(const cfd::Lattice& lattice, std::size_t d, int lo, int count) {
+  const int n = lattice.cells()[d];
+  const std::vector<int>& starts = lattice.starts[d];
+  std::vector<Run> runs;
+  for (int i = lo; i < lo + count;) {
+    const int cell = lattice.periodic[d] ? ((i % n) + n) % n : i;
+    const auto slab = std::upper_bound(starts.begin(), starts.end(), cell) - starts.begin() - 1;
+    const int end = starts[std::size_t(slab) + 1];
+    const int length = std::min(end - cell, lo + count - i);
+    runs.push_back({int(slab), i - lo, cell - starts[std::size_t(slab)], length});
+    i += length;
+  }
+  return runs;
+}
+
+std::size_t cells_of(const Index3& n) {
+  return std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]);
+}
+
+} // namespace
+
+WindowExchange::WindowExchange(const cfd::Mesh& mesh)
+    : mesh_(mesh), local_(mesh.blocks.size(), -1) {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+    local_[std::size_t(mesh.local[b].id)] = int(b);
+}
+
+void WindowExchange::bind(const Window& window) {
+  int changed = !bound_ || window.lo != window_.lo || window.hi != window_.hi;
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, mesh_.comm);
+  if (!changed)
+    return;
+  window_ = window;
+  bound_ = true;
+  owners_ = find_owners();
+  users_ = find_users();
+}
+
+std::vector<WindowExchange::Partner> WindowExchange::find_owners() const {
+  const cfd::Lattice& lattice = *mesh_.lattice;
+  std::map<int, Partner> owners;
+  if (window_.size() > 0) {
+    std::array<std::vector<Run>, 3> runs;
+    for (std::size_t d = 0; d < 3; ++d)
+      runs[d] = split(lattice, d, window_.lo[d], window_.extent()[d]);
+    for (const Run& k : runs[2])
+      for (const Run& j : runs[1])
+        for (const Run& i : runs[0]) {
+          const int block = lattice.block({i.slab, j.slab, k.slab});
+          Partner& owner = owners[mesh_.blocks[std::size_t(block)].rank];
+          owner.overlaps.push_back({block,
+                                    {i.window, j.window, k.window},
+                                    {i.cell, j.cell, k.cell},
+                                    {i.count, j.count, k.count}});
+        }
+  }
+  std::vector<Partner> list;
+  for (auto& [rank, owner] : owners) {
+    owner.rank = rank;
+    for (const Overlap& o : owner.overlaps)
+      owner.cells += cells_of(o.count);
+    list.push_back(std::move(owner));
+  }
+  return list;
+}
+
+// Non-blocking consensus: Hoefler, Siebert, Lumsdaine, "Scalable communication protocols for
+// dynamic sparse data exchange", PPoPP 2010. A synchronous send completes when it is received, so
+// once all ranks have entered the barrier no message is on its way.
+std::vector<WindowExchange::Partner> WindowExchange::find_users() const {
+  int me = 0;
+  MPI_Comm_rank(mesh_.comm, &me);
+  constexpr int ints = int(sizeof(Overlap) / sizeof(int));
+  static_assert(sizeof(Overlap) == 10 * sizeof(int));
+
+  std::map<int, Partner> users;
+  std::vector<MPI_Request> sends;
+  for (const Partner& owner : owners_) {
+    if (owner.rank == me)
+      users[me].overlaps = owner.overlaps;
+    else
+      MPI_Issend(owner.overlaps.data(), ints * int(owner.overlaps.size()), MPI_INT, owner.rank,
+                 consensus_tag, mesh_.comm, &sends.emplace_back());
+  }
+  MPI_Request barrier = MPI_REQUEST_NULL;
+  for (bool in_barrier = false, done = false; !done;) {
+    int arrived = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, consensus_tag, mesh_.comm, &arrived, &status);
+    if (arrived) {
+      int count = 0;
+      MPI_Get_count(&status, MPI_INT, &count);
+      std::vector<Overlap>& overlaps = users[status.MPI_SOURCE].overlaps;
+      overlaps.resize(std::size_t(count / ints));
+      MPI_Recv(overlaps.data(), count, MPI_INT, status.MPI_SOURCE, consensus_tag, mesh_.comm,
+               MPI_STATUS_IGNORE);
+    }
+    int flag = 0;
+    if (in_barrier) {
+      MPI_Test(&barrier, &flag, MPI_STATUS_IGNORE);
+      done = flag != 0;
+    } else {
+      MPI_Testall(int(sends.size()), sends.data(), &flag, MPI_STATUSES_IGNORE);
+      if (flag) {
+        MPI_Ibarrier(mesh_.comm, &barrier);
+        in_barrier = true;
+      }
+    }
+  }
+  std::vector<Partner> list;
+  for (auto& [rank, user] : users) {
+    user.rank = rank;
+    for (const Overlap& o : user.overlaps)
+      user.cells += cells_of(o.count);
+    list.push_back(std::move(user));
+  }
+  return list;
+}
+
+template <class Row> void WindowExchange::rows(const Partner& partner, Row&& row) const {
+  const Index3 n = window_.extent();
+  for (const Overlap& o : partner.overlaps) {
+    const int b = local_[std::size_t(o.block)];
+    for (int k = 0; k < o.count[2]; ++k)
+      for (int j = 0; j < o.count[1]; ++j) {
+        const std::ptrdiff_t in_block =
+            b < 0 ? 0
+                  : mesh_.local[std::size_t(b)].layout.at(o.cell[0], o.cell[1] + j, o.cell[2] + k);
+        const auto in_window =
+            std::size_t(o.window[0]) +
+            std::size_t(n[0]) *
+                (std::size_t(o.window[1] + j) + std::size_t(n[1]) * std::size_t(o.window[2] + k));
+        row(b, in_block, std::ptrdiff_t(in_window), std::size_t(o.count[0]));
+      }
+  }
+}
+
+void WindowExchange::deposit(std::span<const WindowField* const> from,
+                             std::span<cfd::BlockFields* const> to) {
+  int me = 0;
+  MPI_Comm_rank(mesh_.comm, &me);
+  std::vector<MPI_Request> receives(users_.size(), MPI_REQUEST_NULL), sends;
+  for (std::size_t u = 0; u < users_.size(); ++u) {
+    Partner& user = users_[u];
+    if (user.rank == me)
+      continue;
+    user.buffer.resize(user.cells * to.size());
+    MPI_Irecv(user.buffer.data(), int(user.buffer.size()), MPI_DOUBLE, user.rank, deposit_tag,
+              mesh_.comm, &receives[u]);
+  }
+  for (Partner& owner : owners_) {
+    if (owner.rank == me)
+      continue;
+    owner.buffer.resize(owner.cells * from.size());
+    double* out = owner.buffer.data();
+    for (const WindowField* field : from)
+      rows(owner, [&](int, std::ptrdiff_t, std::ptrdiff_t in_window, std::size_t n) {
+        out = std::copy_n(field->data() + in_window, n, out);
+      });
+    MPI_Isend(owner.buffer.data(), int(owner.buffer.size()), MPI_DOUBLE, owner.rank, deposit_tag,
+              mesh_.comm, &sends.emplace_back());
+  }
+  // In order of rank, whatever arrives first: the sums must not depend on timing.
+  for (std::size_t u = 0; u < users_.size(); ++u) {
+    const Partner& user = users_[u];
+    MPI_Wait(&receives[u], MPI_STATUS_IGNORE);
+    const double* in = user.buffer.data();
+    for (std::size_t f = 0; f < to.size(); ++f)
+      rows(user, [&](int b, std::ptrdiff_t in_block, std::ptrdiff_t in_window, std::size_t n) {
+        double* cells = (*to[f])[std::size_t(b)].data() + in_block;
+        const double* values = user.rank == me ? from[f]->data() + in_window : in;
+        for (std::size_t i = 0; i < n; ++i)
+          cells[i] += values[i];
+        in += user.rank == me ? 0 : n;
+      });
+  }
+  MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
+}
+
+void WindowExchange::sample(std::span<const cfd::BlockFields* const> from,
+                            std::span<WindowField* const> to) {
+  int me = 0;
+  MPI_Comm_rank(mesh_.comm, &me);
+  std::vector<MPI_Request> receives(owners_.size(), MPI_REQUEST_NULL), sends;
+  for (std::size_t o = 0; o < owners_.size(); ++o) {
+    Partner& owner = owners_[o];
+    if (owner.rank == me)
+      continue;
+    owner.buffer.resize(owner.cells * to.size());
+    MPI_Irecv(owner.buffer.data(), int(owner.buffer.size()), MPI_DOUBLE, owner.rank, sample_tag,
+              mesh_.comm, &receives[o]);
+  }
+  for (Partner& user : users_) {
+    if (user.rank == me)
+      continue;
+    user.buffer.resize(user.cells * from.size());
+    double* out = user.buffer.data();
+    for (const cfd::BlockFields* field : from)
+      rows(user, [&](int b, std::ptrdiff_t in_block, std::ptrdiff_t, std::size_t n) {
+        out = std::copy_n((*field)[std::size_t(b)].data() + in_block, n, out);
+      });
+    MPI_Isend(user.buffer.data(), int(user.buffer.size()), MPI_DOUBLE, user.rank, sample_tag,
+              mesh_.comm, &sends.emplace_back());
+  }
+  for (std::size_t o = 0; o < owners_.size(); ++o) {
+    const Partner& owner = owners_[o];
+    MPI_Wait(&receives[o], MPI_STATUS_IGNORE);
+    const double* in = owner.buffer.data();
+    for (std::size_t f = 0; f < to.size(); ++f)
+      rows(owner, [&](int b, std::ptrdiff_t in_block, std::ptrdiff_t in_window, std::size_t n) {
+        const double* values = owner.rank == me ? (*from[f])[std::size_t(b)].data() + in_block : in;
+        std::copy_n(values, n, to[f]->data() + in_window);
+        in += owner.rank == me ? 0 : n;
+      });
+  }
+  MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
+}
+
+} // namespace granflux::coupling
