@@ -75,7 +75,7 @@ set(GRANFLUX_MPIRUN ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --
 # Threads that wait must give way where tests oversubscribe the machine; copies between processes
 # through the kernel are forbidden in many containers, and Open MPI then complains on every rank.
 set(GRANFLUX_TEST_ENVIRONMENT
-    "OMP_WAIT_POLICY=passive" "OMPI_MCA_btl_vader_single_copy_mechanism=none"
+    "GTEST_COLOR=no" "OMP_WAIT_POLICY=passive" "OMPI_MCA_btl_vader_single_copy_mechanism=none"
     "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp")
 
 find_package(GTest REQUIRED)
