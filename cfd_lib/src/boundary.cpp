@@ -12,7 +12,9 @@ namespace granflux::cfd {
 
 namespace {
 
-Vec3 at(const VectorField& field, std::ptrdiff_t c) { return {field[0][c], field[1][c], field[2][c]}; }
+Vec3 at(const VectorField& field, std::ptrdiff_t c) {
+  return {field[0][c], field[1][c], field[2][c]};
+}
 
 Vec3 unit_normal(const Block& block, const BoundaryPatch& patch, const BoundaryFace& face) {
   const Vec3 area = at(block.area[std::size_t(patch.direction)], face.face);
@@ -22,7 +24,8 @@ Vec3 unit_normal(const Block& block, const BoundaryPatch& patch, const BoundaryF
 BoundaryPatch bind(const Mesh& mesh, int local, const Patch& patch, int condition) {
   const Block& block = mesh.local[std::size_t(local)];
   const auto d = std::size_t(patch.side.direction);
-  const std::ptrdiff_t outwards = patch.side.high ? block.layout.stride[d] : -block.layout.stride[d];
+  const std::ptrdiff_t outwards =
+      patch.side.high ? block.layout.stride[d] : -block.layout.stride[d];
   // In a direction of one cell between two boundaries there is no next cell inwards.
   Index3 across = patch.cells.lo;
   across[d] += patch.side.high ? -1 : 1;
@@ -100,8 +103,7 @@ Boundaries::Boundaries(const Mesh& mesh, const std::vector<BoundaryCondition>& c
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     for (const Patch& patch : mesh.info(mesh.local[b]).patches)
       if (!patch.link)
-        patches_.push_back(
-            bind(mesh, int(b), patch, condition_of[std::size_t(patch.boundary)]));
+        patches_.push_back(bind(mesh, int(b), patch, condition_of[std::size_t(patch.boundary)]));
 
   for (int c = 0; c < int(conditions_.size()); ++c)
     if (conditions_[std::size_t(c)].profile == BoundaryCondition::Profile::parabolic)
@@ -112,8 +114,8 @@ Boundaries::Boundaries(const Mesh& mesh, const std::vector<BoundaryCondition>& c
     const BoundaryCondition& c = condition(patch);
     for (const BoundaryFace& face : patch.faces)
       if (c.kind == BoundaryKind::wall &&
-          std::abs(dot(c.velocity, unit_normal(mesh.local[std::size_t(patch.block)], patch, face))) >
-              1e-9 * norm(c.velocity))
+          std::abs(dot(c.velocity, unit_normal(mesh.local[std::size_t(patch.block)], patch,
+                                               face))) > 1e-9 * norm(c.velocity))
         through = patch.condition;
   }
   MPI_Allreduce(MPI_IN_PLACE, &through, 1, MPI_INT, MPI_MAX, mesh.comm);
@@ -127,8 +129,7 @@ bool Boundaries::has_outlet() const {
                      [](const auto& c) { return c.kind == BoundaryKind::outlet; });
 }
 
-Vec3 Boundaries::velocity(const BoundaryPatch& patch, const BoundaryFace& face,
-                          double time) const {
+Vec3 Boundaries::velocity(const BoundaryPatch& patch, const BoundaryFace& face, double time) const {
   const BoundaryCondition& c = condition(patch);
   if (c.kind == BoundaryKind::wall)
     return c.velocity;
@@ -179,7 +180,7 @@ void Boundaries::fill_velocity_correction(BlockFields& correction, int m) const 
   }
 }
 
-void Boundaries::fill_pressure(BlockFields& pressure) const {
+void Boundaries::fill_pressure(BlockFields& pressure, bool with_given) const {
   for (const BoundaryPatch& patch : patches_) {
     const auto b = std::size_t(patch.block);
     Field& p = pressure[b];
@@ -187,13 +188,13 @@ void Boundaries::fill_pressure(BlockFields& pressure) const {
     const BoundaryCondition& c = condition(patch);
     for (const BoundaryFace& face : patch.faces) {
       if (c.kind == BoundaryKind::outlet) {
-        p[face.ghost] = 2 * c.pressure - p[face.cell];
+        p[face.ghost] = (with_given ? 2 * c.pressure : 0.0) - p[face.cell];
         continue;
       }
       double slope = 0;
       if (face.inner != face.cell)
-        slope = norm(at(x, face.ghost) - at(x, face.cell)) /
-                norm(at(x, face.cell) - at(x, face.inner));
+        slope =
+            norm(at(x, face.ghost) - at(x, face.cell)) / norm(at(x, face.cell) - at(x, face.inner));
       p[face.ghost] = p[face.cell] + slope * (p[face.cell] - p[face.inner]);
     }
   }

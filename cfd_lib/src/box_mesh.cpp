@@ -13,7 +13,9 @@ namespace granflux::cfd {
 
 namespace {
 
-constexpr std::size_t u(int i) { return std::size_t(i); }
+constexpr std::size_t u(int i) {
+  return std::size_t(i);
+}
 
 std::string side_name(const Side& side) {
   return std::string(1, "xyz"[side.direction]) + (side.high ? "_high" : "_low");
@@ -81,8 +83,7 @@ IndexBox intersection(const IndexBox& a, const IndexBox& b) {
 }
 
 std::int64_t faces(const IndexBox& b) {
-  return empty(b) ? 0
-                  : std::int64_t(b.hi[0] - b.lo[0]) * (b.hi[1] - b.lo[1]) * (b.hi[2] - b.lo[2]);
+  return empty(b) ? 0 : std::int64_t(b.hi[0] - b.lo[0]) * (b.hi[1] - b.lo[1]) * (b.hi[2] - b.lo[2]);
 }
 
 /// Every face of every side belongs to exactly one patch, or the side is periodic.
@@ -99,20 +100,17 @@ void check_patches(const BoxGrid& grid, const std::vector<IndexBox>& boxes, cons
       throw ConfigError("boundary \"" + patch.name + "\": no face of side " +
                         side_name(patch.side) + " has its centre between `from` and `to`");
     for (std::size_t b = 0; b < a; ++b)
-      if (grid.patches[b].side == patch.side &&
-          faces(intersection(boxes[a], boxes[b])) > 0)
-        throw ConfigError("boundaries \"" + grid.patches[b].name + "\" and \"" + patch.name +
-                          "\" overlap on " +
-                          std::to_string(faces(intersection(boxes[a], boxes[b]))) +
-                          " faces of side " + side_name(patch.side) +
-                          ": each face takes one boundary");
+      if (grid.patches[b].side == patch.side && faces(intersection(boxes[a], boxes[b])) > 0)
+        throw ConfigError(
+            "boundaries \"" + grid.patches[b].name + "\" and \"" + patch.name + "\" overlap on " +
+            std::to_string(faces(intersection(boxes[a], boxes[b]))) + " faces of side " +
+            side_name(patch.side) + ": each face takes one boundary");
     bare[u(patch.side.direction)][patch.side.high] -= faces(boxes[a]);
   }
   for (int d = 0; d < 3; ++d)
     for (const bool high : {false, true})
       if (!grid.periodic[u(d)] && bare[u(d)][high] > 0)
-        throw ConfigError("side " + side_name({d, high}) + ": " +
-                          std::to_string(bare[u(d)][high]) +
+        throw ConfigError("side " + side_name({d, high}) + ": " + std::to_string(bare[u(d)][high]) +
                           " faces have no boundary: add a [[boundary]] for them, or make the "
                           "direction periodic");
 }
@@ -218,8 +216,8 @@ Mesh make_box_mesh(const BoxGrid& grid, MPI_Comm comm) {
           Link link;
           link.block = lattice.block(other);
           const auto& starts = lattice.starts[u(d)];
-          link.offset[u(d)] = high ? -info.cells[u(d)]
-                                   : starts[u(other[u(d)] + 1)] - starts[u(other[u(d)])];
+          link.offset[u(d)] =
+              high ? -info.cells[u(d)] : starts[u(other[u(d)] + 1)] - starts[u(other[u(d)])];
           info.patches.push_back({{d, high}, layer, -1, link});
           continue;
         }

@@ -84,8 +84,7 @@ private:
 
   [[nodiscard]] int number(const CellRef& ref) const {
     const Index3& n = mesh_.blocks[std::size_t(ref.block)].cells;
-    return first_[std::size_t(ref.block)] + ref.cell[0] +
-           n[0] * (ref.cell[1] + n[1] * ref.cell[2]);
+    return first_[std::size_t(ref.block)] + ref.cell[0] + n[0] * (ref.cell[1] + n[1] * ref.cell[2]);
   }
 
   std::vector<double> gather(const PressureSystem& system) const {

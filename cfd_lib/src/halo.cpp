@@ -52,8 +52,8 @@ Halo::Halo(const Mesh& mesh) : comm_(mesh.comm) {
           return mesh.local[std::size_t(local.at(block))].layout.at(cell);
         };
         if (here && there)
-          copies_.push_back({local.at(donor->block), local.at(id), at(donor->block, donor->cell),
-                             at(id, ghost)});
+          copies_.push_back(
+              {local.at(donor->block), local.at(id), at(donor->block, donor->cell), at(id, ghost)});
         else if (here)
           receives[donor_rank].cells.emplace_back(local.at(id), at(id, ghost));
         else
@@ -109,9 +109,8 @@ void Halo::exchange(std::initializer_list<BlockFields*> fields) const {
 }
 
 void Halo::exchange(BlockVectors& vectors) const {
-  exchange_values(3, [&](int f, int block) -> Field& {
-    return vectors[std::size_t(block)][std::size_t(f)];
-  });
+  exchange_values(
+      3, [&](int f, int block) -> Field& { return vectors[std::size_t(block)][std::size_t(f)]; });
 }
 
 } // namespace granflux::cfd

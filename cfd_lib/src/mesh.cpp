@@ -73,21 +73,22 @@ Block make_block(int id, Index3 cells, const NodeMap& node) {
       centre += 0.125 * x;
     double volume = 0; // divergence theorem about the centre
     for (int d = 0; d < 3; ++d) {
-      volume += (dot(high[d].area, high[d].centre - centre) -
-                 dot(low[d].area, low[d].centre - centre)) /
-                3;
+      volume +=
+          (dot(high[d].area, high[d].centre - centre) - dot(low[d].area, low[d].centre - centre)) /
+          3;
       set(block.area[std::size_t(d)], c, low[d].area);
       set(face_centre[std::size_t(d)], c, low[d].centre);
     }
     set(block.node, c, corner[0]);
     set(block.centre, c, centre);
     block.volume[c] = volume;
-    const bool interior = i >= 0 && j >= 0 && k >= 0 && i < cells[0] && j < cells[1] && k < cells[2];
+    const bool interior =
+        i >= 0 && j >= 0 && k >= 0 && i < cells[0] && j < cells[1] && k < cells[2];
     if (interior && !(volume > 0))
-      throw ConfigError("grid: cell (" + std::to_string(i) + ", " + std::to_string(j) + ", " +
-                        std::to_string(k) + ") of block " + std::to_string(id) + " has volume " +
-                        std::to_string(volume) +
-                        " m3: a cell must have a positive volume (folded or wrongly ordered nodes)");
+      throw ConfigError(
+          "grid: cell (" + std::to_string(i) + ", " + std::to_string(j) + ", " + std::to_string(k) +
+          ") of block " + std::to_string(id) + " has volume " + std::to_string(volume) +
+          " m3: a cell must have a positive volume (folded or wrongly ordered nodes)");
   });
   each(1 - g, [&](int, int, int, std::ptrdiff_t c) {
     for (int d = 0; d < 3; ++d) {
@@ -136,8 +137,8 @@ BlockFields make_fields(const Mesh& mesh, double value) {
 BlockVectors make_vectors(const Mesh& mesh, Vec3 value) {
   BlockVectors vectors;
   for (const Block& block : mesh.local)
-    vectors.push_back({Field(block.layout, value.x), Field(block.layout, value.y),
-                       Field(block.layout, value.z)});
+    vectors.push_back(
+        {Field(block.layout, value.x), Field(block.layout, value.y), Field(block.layout, value.z)});
   return vectors;
 }
 

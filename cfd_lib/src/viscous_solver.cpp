@@ -36,7 +36,8 @@ int ViscousSolver::solve(int m, const BlockFields& inertia, const FaceConductanc
     return total;
   };
   const double enough = tolerance * scale;
-  double size = std::sqrt(sum([&](std::size_t b, std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; }));
+  double size =
+      std::sqrt(sum([&](std::size_t b, std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; }));
   if (size <= enough)
     return 0;
 
@@ -69,7 +70,8 @@ int ViscousSolver::solve(int m, const BlockFields& inertia, const FaceConductanc
         u[b][std::size_t(m)][c] += step * direction_[b][c];
         defect[b][c] -= step * image_[b][c];
       });
-    size = std::sqrt(sum([&](std::size_t b, std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; }));
+    size = std::sqrt(
+        sum([&](std::size_t b, std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; }));
     if (size <= enough)
       return iteration;
     const double rz_new = sum([&](std::size_t b, std::ptrdiff_t c) {

@@ -11,19 +11,19 @@ namespace granflux::cfd {
 
 /// One boundary face of a local block.
 struct BoundaryFace {
-  std::ptrdiff_t cell;   ///< the interior cell
-  std::ptrdiff_t ghost;  ///< the cell mirrored beyond the face
-  std::ptrdiff_t inner;  ///< the next cell inwards, or `cell` itself where there is none
-  std::ptrdiff_t face;   ///< position in fields on faces of the patch's direction
-  double shape;          ///< of the inlet profile at this face; its mean over the boundary is 1
+  std::ptrdiff_t cell;  ///< the interior cell
+  std::ptrdiff_t ghost; ///< the cell mirrored beyond the face
+  std::ptrdiff_t inner; ///< the next cell inwards, or `cell` itself where there is none
+  std::ptrdiff_t face;  ///< position in fields on faces of the patch's direction
+  double shape;         ///< of the inlet profile at this face; its mean over the boundary is 1
 };
 
 /// The faces of one boundary condition on one side of one local block.
 struct BoundaryPatch {
-  int block = 0;       ///< index into Mesh::local
-  int direction = 0;   ///< normal of the faces
-  double outward = 1;  ///< +1: the area vectors point out of the domain; -1: into it
-  int condition = 0;   ///< index into Boundaries::conditions
+  int block = 0;      ///< index into Mesh::local
+  int direction = 0;  ///< normal of the faces
+  double outward = 1; ///< +1: the area vectors point out of the domain; -1: into it
+  int condition = 0;  ///< index into Boundaries::conditions
   std::vector<BoundaryFace> faces;
 };
 
@@ -49,8 +49,9 @@ public:
   void fill_velocity(BlockVectors& velocity, const BlockFields& void_fraction, double time) const;
   /// Ghosts of a correction to velocity component m, for homogeneous conditions.
   void fill_velocity_correction(BlockFields& correction, int m) const;
-  /// Ghosts of the pressure: outlet value, else continued linearly from inside.
-  void fill_pressure(BlockFields& pressure) const;
+  /// Ghosts of the pressure: outlet value (0 if not `with_given`), else continued linearly from
+  /// inside.
+  void fill_pressure(BlockFields& pressure, bool with_given = true) const;
   /// Ghosts equal to their cells.
   void fill_zero_gradient(BlockFields& field) const;
 

@@ -12,12 +12,12 @@
 namespace granflux::cfd {
 
 struct Fluid {
-  double density = 1.2;     ///< kg/m3
+  double density = 1.2;      ///< kg/m3
   double viscosity = 1.8e-5; ///< dynamic viscosity, Pa s
   /// m/s2. Constant density makes the hydrostatic part exact: the solver carries the dynamic
   /// pressure p - rho g.x, and particles feel -rho V g beside its gradient.
   Vec3 gravity{};
-  bool gravity_given = false;      ///< false: a host may supply its own
+  bool gravity_given = false;       ///< false: a host may supply its own
   Vec3 driving_pressure_gradient{}; ///< imposed mean of grad p [Pa/m], for periodic directions
 };
 
@@ -30,9 +30,9 @@ struct BoundaryCondition {
   /// the profile. Wall: velocity of the wall, tangential [m/s].
   Vec3 velocity{};
   enum class Profile { uniform, parabolic } profile = Profile::uniform;
-  double ramp_time = 0;    ///< s; the inlet velocity grows linearly from ramp_from * velocity
-  double ramp_from = 0;    ///< share of the velocity at time 0
-  double pressure = 0;     ///< outlet: dynamic pressure at the face [Pa]
+  double ramp_time = 0; ///< s; the inlet velocity grows linearly from ramp_from * velocity
+  double ramp_from = 0; ///< share of the velocity at time 0
+  double pressure = 0;  ///< outlet: dynamic pressure at the face [Pa]
 };
 
 enum class ConvectionScheme { central, upwind2, limited };
@@ -46,8 +46,8 @@ struct Numerics {
 };
 
 struct Output {
-  std::string fields;    ///< path of the CGNS files without ending; empty: none
-  double every = 0;      ///< s of simulated time between two of them
+  std::string fields; ///< path of the CGNS files without ending; empty: none
+  double every = 0;   ///< s of simulated time between two of them
 };
 
 /// All that defines a gas run. Plain data; read_gas_case fills it from a TOML file.

@@ -26,13 +26,13 @@ MomentumExchange make_exchange(const Mesh& mesh);
 
 /// Integrals over all blocks and all ranks of the terms of the last step; equal on every rank.
 struct Balance {
-  double gas_volume_change = 0;   ///< d(sum eps V)/dt [m3/s]
-  double boundary_volume_flux = 0; ///< out of the domain [m3/s]
-  Vec3 momentum;                  ///< of the gas at the end of the step [kg m/s]
-  Vec3 momentum_change;           ///< rate over the step [N]
+  double gas_volume_change = 0;        ///< d(sum eps V)/dt [m3/s]
+  double boundary_volume_flux = 0;     ///< out of the domain [m3/s]
+  Vec3 momentum;                       ///< of the gas at the end of the step [kg m/s]
+  Vec3 momentum_change;                ///< rate over the step [N]
   Vec3 convection, friction, pressure; ///< through the boundaries, into the gas [N]
-  Vec3 driving;                   ///< of the driving pressure gradient [N]
-  Vec3 exchange;                  ///< from the second phase [N]
+  Vec3 driving;                        ///< of the driving pressure gradient [N]
+  Vec3 exchange;                       ///< from the second phase [N]
   /// momentum_change - convection - friction - pressure - driving - exchange [N]
   Vec3 momentum_residual;
   /// sum of the magnitudes of the terms above: what the residual is to be measured by [N]
@@ -40,12 +40,12 @@ struct Balance {
 };
 
 struct StepReport {
-  double continuity_residual = 0;   ///< largest |d eps/dt + div(eps u)| of a cell [1/s]
-  double continuity_scale = 0;      ///< largest sum of |fluxes| over volume of a cell [1/s]
-  int pressure_iterations = 0;      ///< 0 for a direct solve
-  double pressure_residual = 0;     ///< relative
-  int viscous_iterations = 0;       ///< most of the three components
-  double courant = 0;               ///< largest, by face fluxes and void fraction
+  double continuity_residual = 0; ///< largest |d eps/dt + div(eps u)| of a cell [1/s]
+  double continuity_scale = 0;    ///< largest sum of |fluxes| over volume of a cell [1/s]
+  int pressure_iterations = 0;    ///< 0 for a direct solve
+  double pressure_residual = 0;   ///< relative
+  int viscous_iterations = 0;     ///< most of the three components
+  double courant = 0;             ///< largest, by face fluxes and void fraction
   /// The void fraction jumped so far that extrapolating it would have left the gas without
   /// inertia somewhere: the time history was begun anew (first order for this one step).
   bool history_restarted = false;
@@ -69,12 +69,12 @@ public:
   /// gas alone. Collective. Throws NumericalError.
   StepReport advance(double dt, const BlockFields& void_fraction, const MomentumExchange* exchange);
 
-  [[nodiscard]] double time() const;             ///< s
+  [[nodiscard]] double time() const; ///< s
   [[nodiscard]] long steps() const;
-  [[nodiscard]] const BlockVectors& velocity() const;      ///< interstitial [m/s], ghosts filled
-  [[nodiscard]] const BlockFields& pressure() const;       ///< dynamic [Pa], ghosts filled
+  [[nodiscard]] const BlockVectors& velocity() const; ///< interstitial [m/s], ghosts filled
+  [[nodiscard]] const BlockFields& pressure() const;  ///< dynamic [Pa], ghosts filled
   [[nodiscard]] const BlockVectors& pressure_gradient() const; ///< driving part included [Pa/m]
-  [[nodiscard]] const BlockFields& void_fraction() const;  ///< at the end of the last step
+  [[nodiscard]] const BlockFields& void_fraction() const;      ///< at the end of the last step
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const Mesh& mesh() const;
   [[nodiscard]] const Fluid& fluid() const;

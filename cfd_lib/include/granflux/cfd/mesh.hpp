@@ -45,9 +45,9 @@ struct Link {
 /// A rectangle of one side: its inner cells, and what lies beyond: another block or a boundary.
 struct Patch {
   Side side;
-  IndexBox cells;            ///< the layer of interior cells that touch the patch
-  int boundary = -1;         ///< index into Mesh::boundaries, or -1 for a link
-  std::optional<Link> link;  ///< set where boundary is -1
+  IndexBox cells;           ///< the layer of interior cells that touch the patch
+  int boundary = -1;        ///< index into Mesh::boundaries, or -1 for a link
+  std::optional<Link> link; ///< set where boundary is -1
 };
 
 /// What every rank knows of every block.
@@ -79,7 +79,7 @@ struct Block {
 struct Lattice {
   std::array<std::vector<double>, 3> nodes; ///< node coordinates along x, y, z [m], increasing
   std::array<bool, 3> periodic{};
-  std::array<std::vector<int>, 3> starts;   ///< first cell of each slab of blocks, then the end
+  std::array<std::vector<int>, 3> starts; ///< first cell of each slab of blocks, then the end
 
   [[nodiscard]] Index3 cells() const {
     return {int(nodes[0].size()) - 1, int(nodes[1].size()) - 1, int(nodes[2].size()) - 1};

@@ -18,7 +18,7 @@ struct PressureSystem {
 };
 
 struct PressureReport {
-  int iterations = 0; ///< 0 for a direct solve
+  int iterations = 0;  ///< 0 for a direct solve
   double residual = 0; ///< norm of the remaining error in the equations over that of rhs
 };
 

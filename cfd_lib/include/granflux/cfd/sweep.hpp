@@ -14,7 +14,8 @@ inline constexpr std::ptrdiff_t smallest_parallel_sweep = 4096;
 /// body(c) for the position c of every interior cell; rows are dealt to the threads.
 template <class Body> void for_cells(const Layout& layout, Body&& body) {
   const auto [ni, nj, nk] = layout.cells;
-#pragma omp parallel for collapse(2) schedule(static) if (layout.interior() >= smallest_parallel_sweep)
+#pragma omp parallel for collapse(2)                                                               \
+    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
   for (int k = 0; k < nk; ++k)
     for (int j = 0; j < nj; ++j) {
       const std::ptrdiff_t row = layout.at(0, j, k);
@@ -28,7 +29,8 @@ template <class Body> void for_cells(const Layout& layout, Body&& body) {
 template <class Body> void for_faces(const Layout& layout, int direction, Body&& body) {
   Index3 n = layout.cells;
   ++n[std::size_t(direction)];
-#pragma omp parallel for collapse(2) schedule(static) if (layout.interior() >= smallest_parallel_sweep)
+#pragma omp parallel for collapse(2)                                                               \
+    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j) {
       const std::ptrdiff_t row = layout.at(0, j, k);
@@ -42,7 +44,8 @@ template <class Body> void for_faces(const Layout& layout, int direction, Body&&
 template <class Term> double sum_cells(const Layout& layout, Term&& term) {
   const auto [ni, nj, nk] = layout.cells;
   std::vector<double> rows(std::size_t(nj) * std::size_t(nk));
-#pragma omp parallel for collapse(2) schedule(static) if (layout.interior() >= smallest_parallel_sweep)
+#pragma omp parallel for collapse(2)                                                               \
+    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
   for (int k = 0; k < nk; ++k)
     for (int j = 0; j < nj; ++j) {
       const std::ptrdiff_t row = layout.at(0, j, k);
@@ -61,7 +64,8 @@ template <class Term> double sum_cells(const Layout& layout, Term&& term) {
 template <class Term> double max_cells(const Layout& layout, double least, Term&& term) {
   const auto [ni, nj, nk] = layout.cells;
   std::vector<double> rows(std::size_t(nj) * std::size_t(nk));
-#pragma omp parallel for collapse(2) schedule(static) if (layout.interior() >= smallest_parallel_sweep)
+#pragma omp parallel for collapse(2)                                                               \
+    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
   for (int k = 0; k < nk; ++k)
     for (int j = 0; j < nj; ++j) {
       const std::ptrdiff_t row = layout.at(0, j, k);

@@ -40,6 +40,8 @@ struct Vec3 {
 [[nodiscard]] constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] inline double norm(const Vec3& a) {
+  return std::sqrt(dot(a, a));
+}
 
 } // namespace granflux
