@@ -10,8 +10,10 @@
 
 namespace granflux::coupling {
 
+template <VoidFractionKernel... Kernels> using KernelList = LawList<Kernels...>;
+
 /// All kernels a case may name; a new one is one file and one word here.
-using VoidFractionKernels = LawList<Centre, Divided, Trilinear, Smoothed>;
+using VoidFractionKernels = KernelList<Centre, Divided, Trilinear, Smoothed>;
 using AnyKernel = VoidFractionKernels::Any;
 
 } // namespace granflux::coupling
