@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace granflux::coupling {
 
@@ -151,33 +152,32 @@ template <class Row> void WindowExchange::rows(const Partner& partner, Row&& row
             std::size_t(o.window[0]) +
             std::size_t(n[0]) *
                 (std::size_t(o.window[1] + j) + std::size_t(n[1]) * std::size_t(o.window[2] + k));
-        row(b, in_block, std::ptrdiff_t(in_window), std::size_t(o.count[0]));
+        row(b, in_block, in_window, std::size_t(o.count[0]));
       }
   }
 }
 
-void WindowExchange::deposit(std::span<const WindowField* const> from,
-                             std::span<cfd::BlockFields* const> to) {
+void WindowExchange::deposit(std::span<const double> from, std::span<cfd::BlockFields* const> to) {
   int me = 0;
   MPI_Comm_rank(mesh_.comm, &me);
+  const std::size_t each = to.size();
   std::vector<MPI_Request> receives(users_.size(), MPI_REQUEST_NULL), sends;
   for (std::size_t u = 0; u < users_.size(); ++u) {
     Partner& user = users_[u];
     if (user.rank == me)
       continue;
-    user.buffer.resize(user.cells * to.size());
+    user.buffer.resize(user.cells * each);
     MPI_Irecv(user.buffer.data(), int(user.buffer.size()), MPI_DOUBLE, user.rank, deposit_tag,
               mesh_.comm, &receives[u]);
   }
   for (Partner& owner : owners_) {
     if (owner.rank == me)
       continue;
-    owner.buffer.resize(owner.cells * from.size());
+    owner.buffer.resize(owner.cells * each);
     double* out = owner.buffer.data();
-    for (const WindowField* field : from)
-      rows(owner, [&](int, std::ptrdiff_t, std::ptrdiff_t in_window, std::size_t n) {
-        out = std::copy_n(field->data() + in_window, n, out);
-      });
+    rows(owner, [&](int, std::ptrdiff_t, std::size_t in_window, std::size_t n) {
+      out = std::copy_n(from.data() + in_window * each, n * each, out);
+    });
     MPI_Isend(owner.buffer.data(), int(owner.buffer.size()), MPI_DOUBLE, owner.rank, deposit_tag,
               mesh_.comm, &sends.emplace_back());
   }
@@ -186,40 +186,48 @@ void WindowExchange::deposit(std::span<const WindowField* const> from,
     const Partner& user = users_[u];
     MPI_Wait(&receives[u], MPI_STATUS_IGNORE);
     const double* in = user.buffer.data();
-    for (std::size_t f = 0; f < to.size(); ++f)
-      rows(user, [&](int b, std::ptrdiff_t in_block, std::ptrdiff_t in_window, std::size_t n) {
+    rows(user, [&](int b, std::ptrdiff_t in_block, std::size_t in_window, std::size_t n) {
+      const double* values = user.rank == me ? from.data() + in_window * each : in;
+      for (std::size_t f = 0; f < each; ++f) {
         double* cells = (*to[f])[std::size_t(b)].data() + in_block;
-        const double* values = user.rank == me ? from[f]->data() + in_window : in;
         for (std::size_t i = 0; i < n; ++i)
-          cells[i] += values[i];
-        in += user.rank == me ? 0 : n;
-      });
+          cells[i] += values[i * each + f];
+      }
+      in += n * each;
+    });
   }
   MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
 }
 
-void WindowExchange::sample(std::span<const cfd::BlockFields* const> from,
-                            std::span<WindowField* const> to) {
+void WindowExchange::sample(std::span<const cfd::BlockFields* const> from, std::span<double> to) {
   int me = 0;
   MPI_Comm_rank(mesh_.comm, &me);
+  const std::size_t each = from.size();
+  const auto read = [&](int b, std::ptrdiff_t in_block, std::size_t n, double* values) {
+    for (std::size_t f = 0; f < each; ++f) {
+      const double* cells = (*from[f])[std::size_t(b)].data() + in_block;
+      for (std::size_t i = 0; i < n; ++i)
+        values[i * each + f] = cells[i];
+    }
+  };
   std::vector<MPI_Request> receives(owners_.size(), MPI_REQUEST_NULL), sends;
   for (std::size_t o = 0; o < owners_.size(); ++o) {
     Partner& owner = owners_[o];
     if (owner.rank == me)
       continue;
-    owner.buffer.resize(owner.cells * to.size());
+    owner.buffer.resize(owner.cells * each);
     MPI_Irecv(owner.buffer.data(), int(owner.buffer.size()), MPI_DOUBLE, owner.rank, sample_tag,
               mesh_.comm, &receives[o]);
   }
   for (Partner& user : users_) {
     if (user.rank == me)
       continue;
-    user.buffer.resize(user.cells * from.size());
+    user.buffer.resize(user.cells * each);
     double* out = user.buffer.data();
-    for (const cfd::BlockFields* field : from)
-      rows(user, [&](int b, std::ptrdiff_t in_block, std::ptrdiff_t, std::size_t n) {
-        out = std::copy_n((*field)[std::size_t(b)].data() + in_block, n, out);
-      });
+    rows(user, [&](int b, std::ptrdiff_t in_block, std::size_t, std::size_t n) {
+      read(b, in_block, n, out);
+      out += n * each;
+    });
     MPI_Isend(user.buffer.data(), int(user.buffer.size()), MPI_DOUBLE, user.rank, sample_tag,
               mesh_.comm, &sends.emplace_back());
   }
@@ -227,12 +235,13 @@ void WindowExchange::sample(std::span<const cfd::BlockFields* const> from,
     const Partner& owner = owners_[o];
     MPI_Wait(&receives[o], MPI_STATUS_IGNORE);
     const double* in = owner.buffer.data();
-    for (std::size_t f = 0; f < to.size(); ++f)
-      rows(owner, [&](int b, std::ptrdiff_t in_block, std::ptrdiff_t in_window, std::size_t n) {
-        const double* values = owner.rank == me ? (*from[f])[std::size_t(b)].data() + in_block : in;
-        std::copy_n(values, n, to[f]->data() + in_window);
-        in += owner.rank == me ? 0 : n;
-      });
+    rows(owner, [&](int b, std::ptrdiff_t in_block, std::size_t in_window, std::size_t n) {
+      double* values = to.data() + in_window * each;
+      if (owner.rank == me)
+        read(b, in_block, n, values);
+      else
+        std::copy_n(std::exchange(in, in + n * each), n * each, values);
+    });
   }
   MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
 }

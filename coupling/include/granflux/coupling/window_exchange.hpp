@@ -10,9 +10,6 @@
 
 namespace granflux::coupling {
 
-/// A quantity on the cells of a window, in the window's order.
-using WindowField = std::vector<double>;
-
 /// Moves fields between the windows of the ranks and the gas blocks on their owners, point to
 /// point: each rank works out from the lattice which blocks its window overlaps, and an owner
 /// learns of its partners by a sparse consensus. Nothing grows with the number of ranks or with
@@ -25,15 +22,12 @@ public:
   /// Collective.
   void bind(const Window& window);
 
-  /// Adds the windows' fields to the blocks under them, in order of rank, all fields of a pair of
-  /// ranks in one message. Collective.
-  void deposit(std::span<const WindowField* const> from, std::span<cfd::BlockFields* const> to);
+  /// Adds window values to the blocks under them, in order of rank. `from` holds to.size() numbers
+  /// for each cell of the window; they go in one message to each owner. Collective.
+  void deposit(std::span<const double> from, std::span<cfd::BlockFields* const> to);
 
-  /// Copies block fields to the windows above them. Collective.
-  void sample(std::span<const cfd::BlockFields* const> from, std::span<WindowField* const> to);
-
-  /// Ranks that this rank exchanges messages with, itself included.
-  [[nodiscard]] std::size_t partners() const { return owners_.size() + users_.size(); }
+  /// Copies block fields to the windows above them: from.size() numbers a cell. Collective.
+  void sample(std::span<const cfd::BlockFields* const> from, std::span<double> to);
 
 private:
   /// Part of a window over one block.

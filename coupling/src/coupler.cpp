@@ -1,0 +1,515 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <granflux/coupling/coupler.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <omp.h>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <variant>
+
+#include <granflux/cfd/error.hpp>
+#include <granflux/cfd/sweep.hpp>
+#include <granflux/coupling/drag/laws.hpp>
+#include <granflux/coupling/fluid_kick.hpp>
+#include <granflux/coupling/ledger.hpp>
+#include <granflux/coupling/smoothing.hpp>
+#include <granflux/coupling/throw_together.hpp>
+#include <granflux/coupling/weights.hpp>
+#include <granflux/coupling/window_exchange.hpp>
+
+// Symbols as in docs/theory_coupling.md: w share of a particle in a cell, S smoothing, T interval.
+
+namespace granflux::coupling {
+
+namespace {
+
+/// K numbers of one particle or one window cell, deposited and sampled together.
+template <std::size_t K> struct Values {
+  std::array<double, K> of{};
+
+  Values& operator+=(const Values& o) & {
+    for (std::size_t k = 0; k < K; ++k)
+      of[k] += o.of[k];
+    return *this;
+  }
+  friend Values operator*(Values a, double s) {
+    for (double& x : a.of)
+      x *= s;
+    return a;
+  }
+};
+
+template <std::size_t K> std::span<double> flat(std::vector<Values<K>>& values) {
+  static_assert(sizeof(Values<K>) == K * sizeof(double));
+  return {reinterpret_cast<double*>(values.data()), K * values.size()};
+}
+
+/// Adds the wall-clock time of its life to a counter.
+class Stopwatch {
+public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(MPI_Wtime()) {}
+  ~Stopwatch() { seconds_ += MPI_Wtime() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+  double& seconds_;
+  double start_;
+};
+
+/// Sums add(p, sums) over 0 <= p < n, each thread a fixed part, in order of thread.
+template <class Sums, class Add> Sums sum_particles(std::size_t n, Add&& add) {
+  std::vector<Sums> parts(static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel
+  {
+    Sums mine;
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t p = 0; p < std::ptrdiff_t(n); ++p)
+      add(std::size_t(p), mine);
+    parts[std::size_t(omp_get_thread_num())] = mine;
+  }
+  Sums total;
+  for (const Sums& part : parts)
+    total += part;
+  return total;
+}
+
+double sphere_volume(double radius) {
+  return 4 * std::numbers::pi / 3 * radius * radius * radius;
+}
+
+std::string text(const Vec3& x) {
+  std::ostringstream out;
+  out.precision(10);
+  out << '(' << x.x << ", " << x.y << ", " << x.z << ')';
+  return out.str();
+}
+
+std::string text(double x) {
+  std::ostringstream out;
+  out.precision(10);
+  out << x;
+  return out.str();
+}
+
+const cfd::Mesh& require_lattice(const cfd::Mesh& mesh) {
+  if (!mesh.lattice)
+    throw ConfigError("coupling: particles can be located on box grids only");
+  return mesh;
+}
+
+} // namespace
+
+struct Coupler::Impl {
+  Impl(const cfd::GasCase& c, const CouplingOptions& o, MPI_Comm comm)
+      : gas_case(c), options(o), mesh(cfd::make_box_mesh(c.grid, comm)), halo(mesh), gas(mesh, c),
+        lattice(*require_lattice(mesh).lattice),
+        kernel(VoidFractionKernels::make("void_fraction", o.void_fraction)),
+        drag(DragLaws::make("drag", o.drag)), exchange(mesh), ledger(comm),
+        momentum(cfd::make_exchange(mesh)), void_fraction(cfd::make_fields(mesh, 1)) {
+    if (!(o.void_fraction_floor > 0 && o.void_fraction_floor < 1))
+      throw ConfigError("coupling: void_fraction_floor = " + text(o.void_fraction_floor) +
+                        " must lie between 0 and 1");
+    if (!(o.smoothing_width >= 0 && std::isfinite(o.smoothing_width)))
+      throw ConfigError("coupling: smoothing_width = " + text(o.smoothing_width) +
+                        " must be a number of particle diameters, 0 or more");
+    for (cfd::BlockFields& field : work)
+      field = cfd::make_fields(mesh);
+  }
+
+  // The stages of an exchange.
+  void locate(const ParticleView& view);
+  void choose_smoothing(const ParticleView& view);
+  void smooth(std::size_t fields);
+  template <std::size_t K> void deposit(std::vector<Values<K>>& values);
+  template <std::size_t K> void sample(std::vector<Values<K>>& values);
+  void find_void_fraction(const ParticleView& view, ExchangeSums& sums);
+  void check_void_fraction(ExchangeSums& sums) const;
+  void sample_old_gas();
+  template <class Law>
+  ExchangeSums charge(const Law& law, const ParticleView& view, double interval);
+  void set_momentum_exchange();
+  void sample_new_gas();
+  ExchangeSums book(const ParticleView& view, double interval);
+
+  template <bool some_fixed>
+  CompensatedVec3 apply(const ParticleView& view, double dt, double share) const;
+
+  cfd::GasCase gas_case;
+  CouplingOptions options;
+  cfd::Mesh mesh;
+  cfd::Halo halo;
+  cfd::GasSolver gas;
+  LatticeLocator lattice;
+  AnyKernel kernel;
+  AnyDragLaw drag;
+  Weights weights;
+  WindowExchange exchange;
+  std::optional<Smoothing> smoothing;
+  double smoothing_diameter = 0; ///< m; 0 until particles have been seen
+  Ledger ledger;
+  ExchangeReport report;
+  CouplingTimes times;
+  bool initialised = false;
+
+  cfd::MomentumExchange momentum;
+  cfd::BlockFields void_fraction;
+  std::array<cfd::BlockFields, 6> work; ///< on gas cells, between messages and solver
+
+  // Per particle: what is deposited or sampled.
+  std::vector<Values<1>> volume;     ///< V_p [m3]
+  std::vector<Values<4>> old_gas;    ///< eps, u before the gas step
+  std::vector<Values<4>> drag_terms; ///< b_eff, b_eff v - hand-over / T
+  std::vector<Values<6>> new_gas;    ///< u, grad p after the gas step
+};
+
+void Coupler::Impl::locate(const ParticleView& view) {
+  const Stopwatch watch(times.locate);
+  weights.build(kernel, lattice, view.position, view.radius, view.coupled);
+  exchange.bind(weights.window());
+  choose_smoothing(view);
+}
+
+/// The width counts in diameters of the largest particle among the first that are coupled.
+void Coupler::Impl::choose_smoothing(const ParticleView& view) {
+  const bool smooths = std::visit([](const auto& k) { return k.smooths; }, kernel);
+  if (!smooths || smoothing)
+    return;
+  if (smoothing_diameter == 0) {
+    for (std::size_t p = 0; p < view.size(); ++p)
+      if (weights.placed(p))
+        smoothing_diameter = std::max(smoothing_diameter, 2 * view.radius[p]);
+    MPI_Allreduce(MPI_IN_PLACE, &smoothing_diameter, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  }
+  if (smoothing_diameter > 0)
+    smoothing.emplace(mesh, halo, options.smoothing_width * smoothing_diameter);
+}
+
+/// S on the first fields of `work`.
+void Coupler::Impl::smooth(std::size_t fields) {
+  if (!smoothing)
+    return;
+  if (fields == 1)
+    smoothing->apply({&work[0]});
+  else if (fields == 4)
+    smoothing->apply({&work[0], &work[1], &work[2], &work[3]});
+  else
+    smoothing->apply({&work[0], &work[1], &work[2], &work[3], &work[4], &work[5]});
+}
+
+/// work := S (sum_p w q_p / V)
+template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& values) {
+  std::array<cfd::BlockFields*, K> fields;
+  std::vector<Values<K>> window(weights.window().size());
+  {
+    const Stopwatch watch(times.deposit);
+    weights.deposit(std::span<const Values<K>>(values), std::span<Values<K>>(window));
+    for (std::size_t k = 0; k < K; ++k) {
+      fields[k] = &work[k];
+      for (cfd::Field& field : work[k])
+        field.fill(0);
+    }
+  }
+  {
+    const Stopwatch watch(times.messages);
+    exchange.deposit(flat(window), fields);
+  }
+  const Stopwatch watch(times.deposit);
+  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+    cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
+      for (std::size_t k = 0; k < K; ++k)
+        work[k][b][c] /= mesh.local[b].volume[c];
+    });
+  smooth(K);
+}
+
+/// values := sum_c w (S work)_c
+template <std::size_t K> void Coupler::Impl::sample(std::vector<Values<K>>& values) {
+  std::array<const cfd::BlockFields*, K> fields;
+  for (std::size_t k = 0; k < K; ++k)
+    fields[k] = &work[k];
+  std::vector<Values<K>> window(weights.window().size());
+  {
+    const Stopwatch watch(times.sample);
+    smooth(K);
+  }
+  {
+    const Stopwatch watch(times.messages);
+    exchange.sample(fields, flat(window));
+  }
+  const Stopwatch watch(times.sample);
+  values.resize(weights.particles());
+  weights.sample(std::span<const Values<K>>(window), std::span<Values<K>>(values));
+}
+
+void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& sums) {
+  volume.resize(view.size());
+  sums += sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    volume[p].of[0] = weights.placed(p) ? sphere_volume(view.radius[p]) : 0;
+    mine.particle_volume += volume[p].of[0];
+  });
+  sums.particles = double(weights.placed_count());
+  sums.outside = double(weights.outside_count());
+  deposit(volume);
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    const cfd::Block& block = mesh.local[b];
+    // Before it becomes 1 - eps, which has no digits left for a single small particle.
+    for (int k = 0; k < block.layout.cells[2]; ++k)
+      for (int j = 0; j < block.layout.cells[1]; ++j)
+        for (int i = 0; i < block.layout.cells[0]; ++i) {
+          const std::ptrdiff_t c = block.layout.at(i, j, k);
+          sums.solid_volume += work[0][b][c] * block.volume[c];
+          void_fraction[b][c] = 1 - work[0][b][c];
+        }
+  }
+  check_void_fraction(sums);
+}
+
+void Coupler::Impl::check_void_fraction(ExchangeSums& sums) const {
+  std::string complaint;
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    const cfd::Block& block = mesh.local[b];
+    for (int k = 0; k < block.layout.cells[2]; ++k)
+      for (int j = 0; j < block.layout.cells[1]; ++j)
+        for (int i = 0; i < block.layout.cells[0]; ++i) {
+          const std::ptrdiff_t c = block.layout.at(i, j, k);
+          const double eps = void_fraction[b][c];
+          if (eps >= sums.void_fraction_min)
+            continue;
+          sums.void_fraction_min = eps;
+          if (eps >= options.void_fraction_floor)
+            continue;
+          const Vec3 centre{block.centre[0][c], block.centre[1][c], block.centre[2][c]};
+          complaint = "coupling: void fraction " + text(eps) + " in cell (" + std::to_string(i) +
+                      ", " + std::to_string(j) + ", " + std::to_string(k) + ") of block " +
+                      std::to_string(block.id) + ", centre " + text(centre) +
+                      " m, is below void_fraction_floor = " + text(options.void_fraction_floor) +
+                      "; use a wider smoothing (void_fraction = \"smoothed\", smoothing_width) or "
+                      "a coarser grid";
+        }
+  }
+  throw_together<NumericalError>(mesh.comm, complaint);
+}
+
+void Coupler::Impl::sample_old_gas() {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    work[0][b] = void_fraction[b];
+    for (std::size_t d = 0; d < 3; ++d)
+      work[1 + d][b] = gas.velocity()[b][d];
+  }
+  sample(old_gas);
+}
+
+/// Drag coefficient of every particle, and what the gas is to be charged for it.
+template <class Law>
+ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, double interval) {
+  const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
+  const bool model_b = options.model == MomentumModel::b;
+  drag_terms.resize(view.size());
+  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    FluidState& state = view.fluid[p];
+    if (!weights.placed(p)) {
+      state = {};
+      drag_terms[p] = {};
+      return;
+    }
+    const auto& [eps, ux, uy, uz] = old_gas[p].of;
+    const double d = 2 * view.radius[p];
+    const double slip = norm(Vec3{ux, uy, uz} - view.velocity[p]);
+    const DragInput in{.reynolds = rho * eps * slip * d / mu, .void_fraction = eps};
+    double b = 3 * std::numbers::pi * mu * d * eps * law(in);
+    if (model_b)
+      b /= eps;
+    const bool fixed = !view.fixed.empty() && view.fixed[p];
+    const double b_eff = fixed ? b : effective_coefficient(b, view.mass[p], interval);
+    const Vec3 hand_over = state.impulse - state.booked;
+    const Vec3 source = b_eff * view.velocity[p] - hand_over / interval;
+    drag_terms[p] = {{b_eff, source.x, source.y, source.z}};
+    state.drag_coefficient = b;
+    state.void_fraction = eps;
+
+    mine.handed_over += hand_over;
+    mine.exchanged += norm(hand_over);
+    mine.law_out_of_range += law.valid.contains(in) ? 0 : 1;
+    mine.slip_reynolds_max = std::max(mine.slip_reynolds_max, in.reynolds);
+  });
+}
+
+void Coupler::Impl::set_momentum_exchange() {
+  deposit(drag_terms);
+  const bool model_b = options.model == MomentumModel::b;
+  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+    cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
+      momentum.drag_coefficient[b][c] = work[0][b][c];
+      for (std::size_t d = 0; d < 3; ++d)
+        momentum.drag_source[b][d][c] = work[1 + d][b][c];
+      momentum.pressure_fraction[b][c] = model_b ? 1 : void_fraction[b][c];
+    });
+}
+
+void Coupler::Impl::sample_new_gas() {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+    for (std::size_t d = 0; d < 3; ++d) {
+      work[d][b] = gas.velocity()[b][d];
+      work[3 + d][b] = gas.pressure_gradient()[b][d];
+    }
+  sample(new_gas);
+}
+
+/// What the gas step took from the gas for each particle.
+ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
+  const double bearing = options.model == MomentumModel::a ? 1 : 0;
+  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    if (!weights.placed(p))
+      return;
+    FluidState& state = view.fluid[p];
+    const auto& [ux, uy, uz, gx, gy, gz] = new_gas[p].of;
+    state.gas_velocity = {ux, uy, uz};
+    state.pressure_force = -bearing * volume[p].of[0] * Vec3{gx, gy, gz};
+    const Vec3 drag_force = drag_terms[p].of[0] * (state.gas_velocity - view.velocity[p]);
+    state.booked = interval * (drag_force + state.pressure_force);
+    state.impulse = {};
+    mine.drag += drag_force;
+    mine.pressure_force += state.pressure_force;
+    mine.booked += state.booked;
+    mine.exchanged += norm(state.booked);
+  });
+}
+
+template <bool some_fixed>
+CompensatedVec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) const {
+  const Vec3 weight_of_gas = -gas.fluid().density * gas.fluid().gravity;
+  return sum_particles<CompensatedVec3>(view.size(), [&](std::size_t p, CompensatedVec3& mine) {
+    FluidState& state = view.fluid[p];
+    if (!(state.void_fraction > 0)) { // not coupled yet, outside the grid or not in the group
+      state.force = {};
+      return;
+    }
+    const Vec3 buoyancy = sphere_volume(view.radius[p]) * weight_of_gas;
+    const Vec3 other = view.force[p] + state.pressure_force + buoyancy;
+    double lambda = state.drag_coefficient * dt / view.mass[p];
+    if constexpr (some_fixed)
+      lambda = view.fixed[p] ? 0 : lambda;
+    const Vec3 exchanged =
+        exact_drag(state.drag_coefficient, lambda, state.gas_velocity, view.velocity[p], other) +
+        state.pressure_force;
+    state.force = exchanged + buoyancy;
+    view.force[p] += state.force;
+    const Vec3 impulse = share * dt * exchanged;
+    state.impulse += impulse;
+    mine += impulse;
+  });
+}
+
+Coupler::Coupler(const cfd::GasCase& gas_case, const CouplingOptions& options, MPI_Comm comm)
+    : impl_(std::make_unique<Impl>(gas_case, options, comm)) {}
+Coupler::~Coupler() = default;
+
+void Coupler::initialise(const ParticleView& view, double time) {
+  Impl& s = *impl_;
+  s.locate(view);
+  std::string complaint;
+  for (std::size_t p = 0; p < view.size() && s.weights.outside_count() > 0; ++p) {
+    if (s.weights.placed(p) || (!view.coupled.empty() && !view.coupled[p]))
+      continue;
+    const cfd::Lattice& grid = *s.mesh.lattice;
+    const Vec3 low{grid.nodes[0].front(), grid.nodes[1].front(), grid.nodes[2].front()};
+    const Vec3 high{grid.nodes[0].back(), grid.nodes[1].back(), grid.nodes[2].back()};
+    complaint = "coupling: particle " + (view.id.empty() ? "" : std::to_string(view.id[p]) + " ") +
+                "at " + text(view.position[p]) +
+                " m lies outside the gas grid, which extends from " + text(low) + " to " +
+                text(high) + " m";
+    break;
+  }
+  throw_together<ConfigError>(s.mesh.comm, complaint);
+
+  for (std::size_t p = 0; p < view.size(); ++p)
+    view.fluid[p] = {};
+  ExchangeSums sums;
+  s.find_void_fraction(view, sums);
+  s.gas.initialise(s.void_fraction, s.gas_case.initial_velocity, time);
+  s.initialised = true;
+}
+
+const ExchangeReport& Coupler::exchange(const ParticleView& view, double interval) {
+  Impl& s = *impl_;
+  if (!s.initialised)
+    throw std::logic_error("Coupler::exchange needs initialise() or load() first");
+  s.locate(view);
+  ExchangeSums sums;
+  s.find_void_fraction(view, sums);
+  s.sample_old_gas();
+  sums += std::visit([&](const auto& law) { return s.charge(law, view, interval); }, s.drag);
+  s.set_momentum_exchange();
+  {
+    const Stopwatch watch(s.times.gas);
+    s.report.gas = s.gas.advance(interval, s.void_fraction, &s.momentum);
+  }
+  s.sample_new_gas();
+  sums += s.book(view, interval);
+  s.ledger.close(sums, s.gas.balance(), interval, s.report);
+  return s.report;
+}
+
+void Coupler::apply(const ParticleView& view, double dt, double share) {
+  Impl& s = *impl_;
+  const Stopwatch watch(s.times.force);
+  s.ledger.received(view.fixed.empty() ? s.apply<false>(view, dt, share)
+                                       : s.apply<true>(view, dt, share));
+}
+
+void Coupler::unapply(const ParticleView& view, double dt, double share) {
+  Impl& s = *impl_;
+  const Vec3 weight_of_gas = -s.gas.fluid().density * s.gas.fluid().gravity;
+  s.ledger.received(
+      sum_particles<CompensatedVec3>(view.size(), [&](std::size_t p, CompensatedVec3& mine) {
+        FluidState& state = view.fluid[p];
+        if (!(state.void_fraction > 0))
+          return;
+        const Vec3 exchanged = state.force - sphere_volume(view.radius[p]) * weight_of_gas;
+        const Vec3 impulse = -share * dt * exchanged;
+        state.impulse += impulse;
+        mine += impulse;
+      }));
+}
+
+const ExchangeReport& Coupler::report() const {
+  return impl_->report;
+}
+const CouplingTimes& Coupler::times() const {
+  return impl_->times;
+}
+cfd::GasSolver& Coupler::gas() {
+  return impl_->gas;
+}
+const cfd::Mesh& Coupler::mesh() const {
+  return impl_->mesh;
+}
+
+std::vector<double> Coupler::save() const {
+  std::vector<double> state = impl_->ledger.save();
+  state.insert(state.begin(), {impl_->smoothing_diameter, double(state.size())});
+  const std::vector<double> gas = impl_->gas.save();
+  state.insert(state.end(), gas.begin(), gas.end());
+  return state;
+}
+
+void Coupler::load(const std::vector<double>& state) {
+  const std::size_t ledger = impl_->ledger.save().size();
+  if (state.size() < 2 + ledger || state[1] != double(ledger))
+    throw ConfigError("restart: the state of the coupling has " + std::to_string(state.size()) +
+                      " numbers and is not one of this version");
+  const auto gas = state.begin() + 2 + std::ptrdiff_t(ledger);
+  impl_->smoothing_diameter = state[0];
+  impl_->ledger.load({state.begin() + 2, gas});
+  impl_->gas.load({gas, state.end()});
+  impl_->smoothing.reset();
+  impl_->initialised = true;
+}
+
+} // namespace granflux::coupling
