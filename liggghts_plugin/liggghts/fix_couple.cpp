@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "fix_couple.hpp"
+
+#include <cstdio>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <mpi.h>
+
+#include <liggghts/lammps.h>
+
+#include <liggghts/atom.h>
+#include <liggghts/comm.h>
+#include <liggghts/error.h>
+#include <liggghts/fix_property_atom.h>
+#include <liggghts/group.h>
+#include <liggghts/modify.h>
+#include <liggghts/output.h>
+#include <liggghts/timer.h>
+#include <liggghts/update.h>
+
+#include <granflux/cfd/error.hpp>
+#include <granflux/cfd/read_gas_case.hpp>
+#include <granflux/coupling/read_coupling.hpp>
+
+#include "gas_box.hpp"
+
+namespace granflux::liggghts {
+
+namespace {
+
+constexpr int vector_length = 24; // entries of compute_vector
+constexpr char fluid_property[] = "granflux_fluid";
+constexpr double half_kick = 0.5; // of velocity Verlet: before and after the force
+
+/// Continues on one rank what it did before, up to the rounding of the next file's time.
+constexpr double time_rounding = 1e-9;
+
+} // namespace
+
+template <class Work> void FixCouple::guard(Work&& work) {
+  const auto text = [this](const std::exception& e) {
+    return fmt::format("fix {} granflux/couple: {}", id, e.what());
+  };
+  try {
+    work();
+  } catch (const ConfigError& e) {
+    error->all(FLERR, text(e).c_str()); // thrown on all ranks alike
+  } catch (const NumericalError& e) {
+    error->all(FLERR, text(e).c_str()); // likewise
+  } catch (const std::exception& e) {
+    error->one(FLERR, text(e).c_str());
+  }
+}
+
+FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : Fix(lammps, narg, arg), clock_(1), progress_(0) {
+  restart_global = 1;
+  vector_flag = 1;
+  size_vector = vector_length;
+  global_freq = 1;
+  extvector = 0;
+  guard([&] {
+    refuse_second_fix();
+    options_ = read_couple_options({arg + 3, std::size_t(narg - 3)});
+    if (!options_.fixed_group.empty() && group->find(options_.fixed_group.c_str()) < 0)
+      throw ConfigError(fmt::format("fixed_group {}: no such group", options_.fixed_group));
+    read_case();
+  });
+  clock_ = CoupleClock(options_.couple_every);
+  progress_.set_every(options_.progress_every);
+}
+
+void FixCouple::refuse_second_fix() const {
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const Fix* other = modify->fix[i]; other && std::string_view(other->style) == style)
+      throw ConfigError(fmt::format("fix {} is one already: there can be one gas only", other->id));
+}
+
+void FixCouple::read_case() {
+  cfd::CaseFile file = cfd::CaseFile::read(options_.case_file, world);
+  gas_case_ = cfd::read_gas_case(file);
+  coupling_options_ = coupling::read_coupling(file);
+  file.finish();
+}
+
+int FixCouple::setmask() {
+  return LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
+}
+
+/// A fix property/atom of that name, made here unless the script has made one.
+LAMMPS_NS::FixPropertyAtom* FixCouple::property(const char* name, int values, bool restarts,
+                                                bool& own) {
+  const char* shape = values == 1 ? "scalar" : "vector";
+  if (Fix* found = modify->find_fix_property(name, "property/atom", shape, values, 0, style, false))
+    return static_cast<LAMMPS_NS::FixPropertyAtom*>(found);
+  own = true;
+  std::vector<std::string> words{name, "all", "property/atom", name, shape, restarts ? "yes" : "no",
+                                 "no", "no"};
+  words.resize(words.size() + std::size_t(values), "0.");
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  return modify->add_fix_property_atom(int(arguments.size()), arguments.data(), style);
+}
+
+void FixCouple::post_create() {
+  bool own_fluid = false;
+  fluid_ = property(fluid_property, coupling::fluid_state_doubles, true, own_fluid);
+  drag_force_ = property("dragforce", 3, false, own_drag_force_);
+  void_fraction_ = property("voidfraction", 1, false, own_void_fraction_);
+  gas_velocity_ = property("uf", 3, false, own_gas_velocity_);
+  const int held =
+      options_.fixed_group.empty() ? 0 : group->bitmask[group->find(options_.fixed_group.c_str())];
+  host_ = std::make_unique<HostView>(lmp, *fluid_, groupbit, held);
+}
+
+void FixCouple::pre_delete(bool unfix) {
+  if (!unfix)
+    return;
+  modify->delete_fix(fluid_property, true);
+  for (const auto& [own, name] :
+       {std::pair(own_drag_force_, "dragforce"), std::pair(own_void_fraction_, "voidfraction"),
+        std::pair(own_gas_velocity_, "uf")})
+    if (own)
+      modify->delete_fix(name, true);
+}
+
+void FixCouple::say(const std::string& text) const {
+  if (comm->me != 0)
+    return;
+  for (FILE* out : {screen, logfile})
+    if (out) {
+      std::fputs(text.c_str(), out);
+      std::fflush(out);
+    }
+}
+
+/// Before the first run: the gas at its initial or restored state, the particles where they are.
+void FixCouple::begin() {
+  check_script(*lmp);
+  if (!options_.any_box)
+    check_box(*lmp, gas_case_.grid, 2 * largest_radius(*lmp));
+  if (const std::string note = settle_gravity(*lmp, gas_case_.fluid); !note.empty())
+    say(fmt::format("granflux: {}\n", note));
+
+  auto coupler = std::make_unique<coupling::Coupler>(gas_case_, coupling_options_, world);
+  if (restored_) {
+    coupler->load(restored_->coupler);
+    clock_.restore(restored_->time_step, restored_->steps_left, restored_->owed);
+    last_force_dt_ = restored_->time_step;
+    next_fields_time_ = restored_->next_fields_time;
+  } else {
+    coupler->initialise(host_->particles(true), 0);
+  }
+  if (!gas_case_.output.fields.empty())
+    fields_ = std::make_unique<cfd::CgnsWriter>(coupler->mesh(), gas_case_.output.fields,
+                                                restored_ ? restored_->fields_written : 0);
+  coupler_ = std::move(coupler);
+  if (!restored_)
+    write_fields();
+  restored_.reset();
+}
+
+void FixCouple::setup(int) {
+  guard([&] {
+    modify->timing = 1; // the table of post_run needs the seconds of each fix
+    host_->find_held();
+    if (!coupler_)
+      begin();
+    times_at_start_ = coupler_->times();
+    fields_seconds_ = particle_steps_ = 0;
+    largest_ = {};
+    clock_.set_time_step(update->dt);
+
+    // The last run ended, or its restart file was written, with a force whose second half the
+    // integrator never applied: LIGGGHTS has just computed all forces anew.
+    if (last_force_dt_ > 0)
+      coupler_->unapply(host_->particles(false), last_force_dt_, half_kick);
+    if (clock_.due())
+      exchange();
+    apply(half_kick);
+    fill_outputs();
+    progress_.start(long(update->ntimestep), long(update->laststep), MPI_Wtime());
+  });
+}
+
+/// All other forces of the step are in the force array here, and velocities are those of the
+/// middle of the step.
+void FixCouple::pre_final_integrate() {
+  guard([&] {
+    if (update->dt != clock_.time_step())
+      throw ConfigError(
+          fmt::format("the time step changed from {} to {} s within a run: it must be "
+                      "constant (no fix dt/reset)",
+                      clock_.time_step(), update->dt));
+    clock_.count_step();
+    const bool coupling_step = clock_.due();
+    if (coupling_step)
+      exchange();
+    apply(1);
+    particle_steps_ += atom->nlocal;
+    if (coupling_step || update->ntimestep == output->next)
+      fill_outputs();
+    if (coupling_step)
+      if (const std::string line =
+              progress_.line(long(update->ntimestep), coupler_->gas().time(), MPI_Wtime());
+          !line.empty())
+        say(line);
+  });
+}
+
+void FixCouple::exchange() {
+  const coupling::ExchangeReport& report =
+      coupler_->exchange(host_->particles(true), clock_.interval());
+  clock_.advanced();
+  largest_.add(report, coupler_->gas().balance());
+  write_fields();
+}
+
+void FixCouple::apply(double share) {
+  coupler_->apply(host_->particles(false), clock_.time_step(), share);
+  host_->clear_frozen_forces();
+  last_force_dt_ = clock_.time_step();
+}
+
+void FixCouple::write_fields() {
+  const double every = gas_case_.output.every, time = coupler_->gas().time();
+  if (!fields_ || time < next_fields_time_ - time_rounding * every)
+    return;
+  const double start = MPI_Wtime();
+  fields_->write(coupler_->gas());
+  while (next_fields_time_ <= time + time_rounding * every)
+    next_fields_time_ += every;
+  fields_seconds_ += MPI_Wtime() - start;
+}
+
+void FixCouple::fill_outputs() {
+  const coupling::ParticleView view = host_->particles(false);
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const coupling::FluidState& state = view.fluid[i];
+    for (int d = 0; d < 3; ++d) {
+      drag_force_->array_atom[i][d] = state.force[d];
+      gas_velocity_->array_atom[i][d] = state.gas_velocity[d];
+    }
+    void_fraction_->vector_atom[i] = state.void_fraction;
+  }
+}
+
+void FixCouple::post_run() {
+  if (!coupler_ || update->ntimestep == update->firststep)
+    return; // no step was made: nothing to tell
+  RunTimes times;
+  const coupling::CouplingTimes now = coupler_->times();
+  times.coupling.gas = now.gas - times_at_start_.gas;
+  times.coupling.locate = now.locate - times_at_start_.locate;
+  times.coupling.deposit = now.deposit - times_at_start_.deposit;
+  times.coupling.sample = now.sample - times_at_start_.sample;
+  times.coupling.messages = now.messages - times_at_start_.messages;
+  times.coupling.force = now.force - times_at_start_.force;
+  times.fields = fields_seconds_;
+  for (int i = 0; i < modify->nfix; ++i)
+    if (modify->fix[i] != this)
+      times.other_fixes += modify->fix[i]->get_recorded_time();
+  times.contacts = timer->array[TIME_PAIR];
+  times.neighbour_lists = timer->array[TIME_NEIGHBOR];
+  times.communication = timer->array[TIME_COMM];
+  times.output = timer->array[TIME_OUTPUT];
+  times.total = timer->array[TIME_LOOP];
+
+  double particle_steps = particle_steps_;
+  MPI_Allreduce(MPI_IN_PLACE, &particle_steps, 1, MPI_DOUBLE, MPI_SUM, world);
+  say(run_report(mean_over_ranks(times, world), largest_, particle_steps));
+}
+
+/// Mean dynamic pressure on the first inlet of the case minus that on its first outlet [Pa].
+double FixCouple::pressure_drop() {
+  const auto first = [&](cfd::BoundaryKind kind) -> const cfd::BoundaryCondition* {
+    for (const cfd::BoundaryCondition& b : gas_case_.boundaries)
+      if (b.kind == kind)
+        return &b;
+    return nullptr;
+  };
+  const auto *inlet = first(cfd::BoundaryKind::inlet), *outlet = first(cfd::BoundaryKind::outlet);
+  if (!inlet || !outlet)
+    return 0;
+  return coupler_->gas().boundary_pressure(inlet->name) -
+         coupler_->gas().boundary_pressure(outlet->name);
+}
+
+double FixCouple::compute_vector(int n) {
+  if (!coupler_)
+    return 0; // before the first run
+  const coupling::ExchangeReport& report = coupler_->report();
+  const coupling::CouplingTimes& times = coupler_->times();
+  switch (n) {
+  case 0:
+    return pressure_drop();
+  case 1:
+  case 2:
+  case 3:
+    return report.drag[n - 1];
+  case 4:
+  case 5:
+  case 6:
+    return report.pressure_force[n - 4];
+  case 7:
+    return report.void_fraction_min;
+  case 8:
+    return report.particle_volume;
+  case 9:
+    return report.volume_residual;
+  case 10:
+    return report.momentum_residual;
+  case 11:
+    return relative_continuity_residual(report.gas);
+  case 12:
+    return relative_momentum_residual(coupler_->gas().balance());
+  case 13:
+    return coupler_->gas().time();
+  case 14:
+    return report.gas.courant;
+  case 15:
+    return double(report.particles);
+  case 16:
+    return double(report.outside);
+  case 17:
+    return double(report.law_out_of_range);
+  case 18:
+    return report.slip_reynolds_max;
+  case 19:
+    return report.gas.pressure_iterations;
+  case 20:
+    return times.gas;
+  case 21:
+    return times.locate + times.deposit + times.sample + times.messages;
+  case 22:
+    return times.force;
+  default:
+    return double(coupler_->gas().steps());
+  }
+}
+
+int FixCouple::modify_param(int narg, char** arg) {
+  const std::string_view key = arg[0];
+  if (narg < 2 || (key != "couple_every" && key != "progress"))
+    return 0; // LIGGGHTS reports it
+  guard([&] {
+    if (key == "couple_every")
+      clock_.set_every(read_couple_every(arg[1]));
+    else
+      progress_.set_every(read_progress_every(arg[1]));
+  });
+  return 2;
+}
+
+void FixCouple::write_restart(FILE* file) {
+  guard([&] {
+    CoupleState state;
+    if (coupler_) {
+      state.time_step = clock_.time_step();
+      state.steps_left = clock_.steps_left();
+      state.owed = clock_.owed();
+      state.next_fields_time = next_fields_time_;
+      state.fields_written = fields_ ? fields_->next() : 0;
+      state.coupler = coupler_->save();
+    } else if (restored_) {
+      state = *restored_;
+    }
+    write_couple_state(state, file, world);
+  });
+}
+
+void FixCouple::restart(char* block) {
+  guard([&] {
+    CoupleState state = read_couple_state(block, world);
+    if (state.time_step > 0) // else written before the first run: nothing to continue
+      restored_ = std::move(state);
+  });
+}
+
+} // namespace granflux::liggghts

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// LIGGGHTS with the styles of GranFlux: takes every option of `liggghts` and the same scripts.
+
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <mpi.h>
+#include <omp.h>
+
+#include <liggghts/lammps.h>
+
+#include <liggghts/error.h>
+#include <liggghts/input.h>
+#include <liggghts/signal_handling.h>
+#include <liggghts/universe.h>
+
+#include <granflux/version.hpp>
+
+#include "register_styles.hpp"
+
+namespace {
+
+constexpr std::string_view host_version = GRANFLUX_HOST_VERSION;
+
+void print_version() {
+  fmt::print("granflux {}, revision {}\ncompiler: {}\nflags: {}\nhost: {}\n", granflux::version,
+             granflux::revision, granflux::compiler, granflux::compiler_flags, host_version);
+}
+
+/// The plugin derives from classes of the library, whose layout belongs to one build of it.
+void check_host(LAMMPS_NS::LAMMPS& lammps) {
+  const std::string_view found = lammps.universe->version;
+  if (found.find(host_version) == std::string_view::npos)
+    lammps.error->all(FLERR, fmt::format("granflux was compiled against '{}', but the library "
+                                         "says '{}': build granflux again",
+                                         host_version, found)
+                                 .c_str());
+}
+
+/// Ctrl-C, SIGTERM and SIGUSR1 do what they do in the stock program: end the run in order.
+void install_signal_handlers() {
+  std::signal(SIGINT, LAMMPS_NS::SignalHandler::int_handler);
+  std::signal(SIGTERM, LAMMPS_NS::SignalHandler::int_handler);
+  std::signal(SIGUSR1, LAMMPS_NS::SignalHandler::usr1_handler);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "-version") {
+    print_version();
+    return 0;
+  }
+  install_signal_handlers();
+  // As in LIGGGHTS: one thread a rank unless the user asks for more.
+  if (!std::getenv("OMP_NUM_THREADS"))
+    omp_set_num_threads(1);
+  MPI_Init(&argc, &argv);
+  {
+    LAMMPS_NS::LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
+    check_host(lammps);
+    granflux::liggghts::register_styles(lammps);
+    lammps.input->file();
+  }
+  MPI_Finalize();
+}

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+
+#include <granflux/coupling/coupler.hpp>
+
+namespace granflux::liggghts {
+
+/// Seconds of one run, mean over the ranks once reduced.
+struct RunTimes {
+  coupling::CouplingTimes coupling;
+  double fields = 0; ///< writing gas fields
+  double contacts = 0, other_fixes = 0, neighbour_lists = 0, communication = 0, output = 0;
+  double total = 0;
+};
+/// Mean over the ranks. Collective.
+RunTimes mean_over_ranks(RunTimes times, MPI_Comm comm);
+
+/// Largest values over the coupling steps of one run.
+struct LargestResiduals {
+  double void_volume = 0;  ///< ExchangeReport::volume_residual
+  double momentum = 0;     ///< ExchangeReport::momentum_residual
+  double gas_mass = 0;     ///< continuity residual over the scale of its terms
+  double gas_momentum = 0; ///< momentum budget of the gas over the scale of its terms
+  double courant = 0;
+  double void_fraction_min = 1; ///< smallest
+  long outside = 0;             ///< particles of the group outside the gas grid
+  long law_out_of_range = 0;    ///< particles outside the drag law's range
+  long exchanges = 0;
+
+  void add(const coupling::ExchangeReport& report, const cfd::Balance& balance);
+};
+
+/// Residuals relative to the scale of their own terms; 0 where all terms vanish.
+double relative_continuity_residual(const cfd::StepReport& gas);
+double relative_momentum_residual(const cfd::Balance& balance);
+
+/// The table at the end of a run. particle_steps: sum over steps of the particles of all ranks.
+std::string run_report(const RunTimes& times, const LargestResiduals& largest,
+                       double particle_steps);
+
+} // namespace granflux::liggghts
