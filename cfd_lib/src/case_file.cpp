@@ -51,20 +51,26 @@ struct CaseText {
 
 namespace {
 
-/// A value as the user wrote it, cut where it is long.
+/// A value as a message shows it.
 std::string written(const toml::node& node) {
+  if (const auto* number = node.as_floating_point())
+    return fmt::format("{}", number->get());
+  if (const auto* text = node.as_string())
+    return fmt::format("\"{}\"", text->get());
   if (node.is_table())
     return "a table";
   if (node.is_array_of_tables())
     return "tables";
+  if (const toml::array* array = node.as_array()) {
+    constexpr std::size_t most = 6; // elements shown of a long one
+    std::string text = "[";
+    for (std::size_t i = 0; i < std::min(array->size(), most); ++i)
+      text += (i ? ", " : "") + written((*array)[i]);
+    return text + (array->size() > most ? ", ...]" : "]");
+  }
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
-  std::string text = out.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  constexpr std::size_t longest = 60;
-  if (text.size() > longest)
-    text = text.substr(0, longest) + " ...";
-  return text;
+  return out.str();
 }
 
 std::string described(const NumberRange& range, std::string_view unit, bool plural) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cerrno>
+#include <fcntl.h>
 #include <filesystem>
 #include <system_error>
 #include <unistd.h>
@@ -77,7 +78,11 @@ std::array<std::vector<double>, 3> block_nodes(const Lattice& lattice, int block
 /// its text.
 class FileOnRankZero {
 public:
-  FileOnRankZero(const std::string& name, double time) {
+  /// With a fault to begin with, nothing is opened.
+  FileOnRankZero(const std::string& name, double time, std::string fault)
+      : failure(std::move(fault)) {
+    if (!failure.empty())
+      return;
     cg_set_file_type(CG_FILE_HDF5);
     opened_ = done(cg_open(name.c_str(), CG_MODE_WRITE, &file_));
     if (opened_)
@@ -182,11 +187,36 @@ std::string folder_fault(const std::string& path) {
   return {};
 }
 
+/// Most that the file can take [bytes]: its numbers, and generous room for HDF5's own structures.
+std::size_t file_size(const Mesh& mesh, std::size_t components) {
+  constexpr std::size_t per_base = 64 << 10, per_zone = 64 << 10, per_array = 8 << 10;
+  std::size_t bytes = per_base;
+  for (const BlockInfo& info : mesh.blocks) {
+    std::size_t nodes = 1, cells = 1;
+    for (const int n : info.cells)
+      nodes *= std::size_t(n) + 1, cells *= std::size_t(n);
+    bytes += per_zone + (3 + components) * per_array;
+    bytes += (3 * nodes + components * cells) * sizeof(double);
+  }
+  return bytes;
+}
+
+/// Whether that much can be written to a file of that name, by taking the room and giving it back.
+/// HDF5 1.10 does not survive a write that fails: its next use, or the end of the program, crashes.
+std::string room_fault(const std::string& name, std::size_t bytes) {
+  const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0)
+    return std::generic_category().message(errno);
+  const int code = posix_fallocate(file, 0, off_t(bytes));
+  close(file);
+  return code == 0 ? "" : std::generic_category().message(code);
+}
+
 /// Rank 0's part of a write: takes every block from its owner, even after a failure, so that no
 /// owner waits for ever. Returns the text of the failure.
 std::string write_file(const Mesh& mesh, const std::string& name, double time,
                        const std::vector<Component>& components) {
-  FileOnRankZero file(name, time);
+  FileOnRankZero file(name, time, room_fault(name, file_size(mesh, components.size())));
   std::size_t local = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const BlockInfo& info = mesh.blocks[b];

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <granflux/cfd/read_gas_case.hpp>
+
+namespace granflux::test {
+
+/// A duct along z with an inlet below and an outlet above, periodic along y.
+inline const std::string good_case = R"([grid]
+kind = "box"
+origin = [0.0, 0.0, 0.0]
+size = [0.044, 0.010, 0.120]
+cells = [8, 2, 12]
+periodic = [false, true, false]
+blocks = [1, 1, 2]
+
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+gravity = [0.0, 0.0, -9.81]
+driving_pressure_gradient = [0.0, -1.5, 0.0]
+
+[[boundary]]
+name = "bottom"
+side = "z_low"
+type = "inlet"
+velocity = [0.0, 0.0, 0.9]
+profile = "parabolic"
+ramp_time = 0.1
+ramp_from = 0.01
+
+[[boundary]]
+name = "top"
+side = "z_high"
+type = "outlet"
+pressure = 5.0
+
+[[boundary]]
+name = "left"
+side = "x_low"
+type = "wall"
+velocity = [0.0, 0.0, 0.1]
+
+[[boundary]]
+name = "right"
+side = "x_high"
+type = "slip"
+
+[initial]
+velocity = [0.0, 0.0, 0.5]
+
+[numerics]
+convection = "upwind2"
+pressure_tolerance = 1e-8
+viscous_tolerance = 1e-9
+time_step = 1e-4
+end_time = 0.2
+
+[output]
+fields = "post/gas"
+every = 0.01
+
+[coupling]
+drag = "gidaspow"
+)";
+
+/// The good case with one piece of its text replaced.
+inline std::string with(const std::string& old_text, const std::string& new_text) {
+  std::string text = good_case;
+  const std::size_t at = text.find(old_text);
+  if (at == std::string::npos)
+    throw std::logic_error("the good case has no \"" + old_text + "\"");
+  return text.replace(at, old_text.size(), new_text);
+}
+
+/// As granflux_cfd reads a file of that text.
+inline cfd::GasCase gas_case_of(const std::string& text) {
+  cfd::CaseFile file = cfd::CaseFile::parse(text, "bed.toml");
+  file.skip("coupling");
+  cfd::GasCase gas_case = cfd::read_gas_case(file);
+  file.finish();
+  return gas_case;
+}
+
+} // namespace granflux::test

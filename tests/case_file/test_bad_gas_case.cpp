@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <ostream>
+#include <vector>
+
+#include <granflux/cfd/box_mesh.hpp>
+
+#include "expect_config_error.hpp"
+#include "gas_case_text.hpp"
+
+using namespace granflux::cfd;
+using namespace granflux::test;
+
+namespace {
+
+/// One mistake in the good case, and the message it must give.
+struct Mistake {
+  std::string right, wrong, message;
+};
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  *out << mistake.wrong;
+}
+
+const std::vector<Mistake> mistakes{
+    {"kind = \"box\"", "kind = \"sphere\"",
+     "bed.toml: [grid] kind = \"sphere\": must be one of \"box\""},
+    {"size = [0.044, 0.010, 0.120]\n", "",
+     "bed.toml: [grid] size is missing: must be three numbers > 0 (m), as [x, y, z]"},
+    {"size = [0.044, 0.010, 0.120]", "size = [0.044, 0.0, 0.120]",
+     "bed.toml: [grid] size = [0.044, 0, 0.12]: must be three numbers > 0 (m), as [x, y, z]"},
+    {"cells = [8, 2, 12]", "cells = [8, 2.5, 12]",
+     "bed.toml: [grid] cells = [8, 2.5, 12]: must be three integers from 1 to 1000000, as "
+     "[x, y, z]"},
+    {"cells = [8, 2, 12]", "cells = [100000, 100000, 1]",
+     "bed.toml: [grid] cells = [100000, 100000, 1]: must be at most 2147483647 cells in all"},
+    {"kind = \"box\"", "kind = \"box\"\nnodes_x = [0, 1]",
+     "bed.toml: [grid] origin = [0, 0, 0]: not allowed: nodes_x, nodes_y and nodes_z take "
+     "its place"},
+    {"origin = [0.0, 0.0, 0.0]\nsize = [0.044, 0.010, 0.120]\ncells = [8, 2, 12]",
+     "nodes_x = [0, 0.2, 0.1]\nnodes_y = [0, 1]\nnodes_z = [0, 1]",
+     "bed.toml: [grid] nodes_x = [0, 0.2, 0.1]: must be node coordinates that increase from "
+     "each to the next (m)"},
+    {"origin = [0.0, 0.0, 0.0]\nsize = [0.044, 0.010, 0.120]\ncells = [8, 2, 12]",
+     "nodes_x = [0, 0.2]",
+     "bed.toml: [grid] nodes_y is missing: must be an array of 2 or more numbers (m)"},
+    {"periodic = [false, true, false]", "periodic = true",
+     "bed.toml: [grid] periodic = true: must be three of true or false, as [x, y, z]"},
+    {"blocks = [1, 1, 2]", "blocks = [1, 0, 2]",
+     "bed.toml: [grid] blocks = [1, 0, 2]: must be three integers from 1 to 1000000, as "
+     "[x, y, z]"},
+    {"density = 1.2", "density = -1.2",
+     "bed.toml: [fluid] density = -1.2: must be a number > 0 (kg/m3)"},
+    {"density = 1.2", "density = nan",
+     "bed.toml: [fluid] density = nan: must be a number > 0 (kg/m3)"},
+    {"density = 1.2", "density = \"air\"",
+     "bed.toml: [fluid] density = \"air\": must be a number > 0 (kg/m3)"},
+    {"density = 1.2\n", "", "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3)"},
+    {"density = 1.2", "densty = 1.2",
+     "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3)"},
+    {"density = 1.2", "density = 1.2\ndensiti = 1",
+     "bed.toml: [fluid] densiti (line 11): unknown key; did you mean density?"},
+    {"viscosity = 1.8e-5", "viscosity = 0",
+     "bed.toml: [fluid] viscosity = 0: must be a number > 0 (Pa s)"},
+    {"gravity = [0.0, 0.0, -9.81]", "gravity = [0.0, 0.0, inf]",
+     "bed.toml: [fluid] gravity = [0, 0, inf]: must be three numbers (m/s2), as [x, y, z]"},
+    {"driving_pressure_gradient = [0.0, -1.5, 0.0]", "driving_pressure_gradient = [0.0, 0.0, -1.5]",
+     "bed.toml: [fluid] driving_pressure_gradient = [0, 0, -1.5]: must be 0 along z, which "
+     "is not periodic: there, boundaries drive the flow (Pa/m)"},
+    {"name = \"top\"\n", "", "bed.toml: [[boundary]] 2 name is missing: must be a text in quotes"},
+    {"name = \"top\"", "name = \"bottom\"",
+     "bed.toml: [[boundary]] 2 \"bottom\" name = \"bottom\": must be a name of its own: another "
+     "[[boundary]] has this one"},
+    {"side = \"z_low\"", "side = \"y_low\"",
+     "bed.toml: [[boundary]] 1 \"bottom\" side = \"y_low\": must be a side that [grid] periodic "
+     "does "
+     "not connect to the opposite one"},
+    {"side = \"z_low\"", "side = \"zlow\"",
+     "bed.toml: [[boundary]] 1 \"bottom\" side = \"zlow\": must be one of \"x_low\", \"x_high\", "
+     "\"y_low\", \"y_high\", \"z_low\", \"z_high\"; did you mean z_low?"},
+    {"side = \"z_low\"", "side = \"z_low\"\nfrom = [1, 0, 0]\nto = [0, 1, 0]",
+     "bed.toml: [[boundary]] 1 \"bottom\" to = [0, 1, 0]: must be not below `from` along x"},
+    {"type = \"outlet\"", "type = \"outlt\"",
+     "bed.toml: [[boundary]] 2 \"top\" type = \"outlt\": must be one of \"inlet\", \"outlet\", "
+     "\"wall\", \"slip\"; did you mean outlet?"},
+    {"type = \"outlet\"\npressure = 5.0", "type = \"wall\"",
+     "bed.toml: [[boundary]] \"bottom\" is an inlet, but no [[boundary]] has type = \"outlet\": "
+     "the gas could not leave"},
+    {"pressure = 5.0", "velocity = [0, 0, 1]",
+     "bed.toml: [[boundary]] 2 \"top\" velocity = [0, 0, 1]: not allowed: only an inlet or a "
+     "wall has a velocity"},
+    {"type = \"slip\"", "type = \"slip\"\npressure = 1",
+     "bed.toml: [[boundary]] 4 \"right\" pressure = 1: not allowed: only an outlet has a pressure"},
+    {"type = \"slip\"", "type = \"slip\"\nramp_time = 1",
+     "bed.toml: [[boundary]] 4 \"right\" ramp_time = 1: not allowed: only an inlet has a "
+     "ramp_time"},
+    {"velocity = [0.0, 0.0, 0.9]", "velocity = [0.0, 0.0, -0.9]",
+     "bed.toml: [[boundary]] 1 \"bottom\" velocity = [0, 0, -0.9]: must be directed into the "
+     "box: gas leaves through an outlet (m/s)"},
+    {"velocity = [0.0, 0.0, 0.9]\n", "",
+     "bed.toml: [[boundary]] 1 \"bottom\" velocity is missing: must be three numbers (m/s), as "
+     "[x, y, z]"},
+    {"profile = \"parabolic\"", "profile = \"plug\"",
+     "bed.toml: [[boundary]] 1 \"bottom\" profile = \"plug\": must be one of \"uniform\", "
+     "\"parabolic\""},
+    {"ramp_time = 0.1\n", "",
+     "bed.toml: [[boundary]] 1 \"bottom\" ramp_from = 0.01: not allowed: it needs a ramp_time > "
+     "0"},
+    {"velocity = [0.0, 0.0, 0.1]", "velocity = [0.1, 0.0, 0.0]",
+     "bed.toml: [[boundary]] 3 \"left\" velocity = [0.1, 0, 0]: must be 0 along x: a wall "
+     "moves in its own plane only (m/s)"},
+    {"convection = \"upwind2\"", "convection = \"upwind\"",
+     "bed.toml: [numerics] convection = \"upwind\": must be one of \"central\", \"upwind2\", "
+     "\"limited\"; did you mean upwind2?"},
+    {"pressure_tolerance = 1e-8", "pressure_tolerance = 0.5",
+     "bed.toml: [numerics] pressure_tolerance = 0.5: must be a number >= 1e-15 and <= 0.01"},
+    {"time_step = 1e-4", "time_step = 0",
+     "bed.toml: [numerics] time_step = 0: must be a number > 0 (s)"},
+    {"every = 0.01\n", "", "bed.toml: [output] every is missing: must be a number > 0 (s)"},
+    {"fields = \"post/gas\"\n", "",
+     "bed.toml: [output] every = 0.01: not allowed: it needs fields, the path of the files to "
+     "write"},
+    {"[initial]", "[initail]",
+     "bed.toml: [initail] (line 41): unknown table; did you mean initial?"},
+    {"[fluid]", "[fluid", "bed.toml: line 9, column "},
+};
+
+class BadGasCase : public testing::TestWithParam<Mistake> {};
+
+} // namespace
+
+TEST_P(BadGasCase, GivesTheMessage) {
+  const Mistake& mistake = GetParam();
+  const std::string message =
+      config_error([&] { (void)gas_case_of(with(mistake.right, mistake.wrong)); });
+  if (mistake.message.ends_with("column "))
+    EXPECT_TRUE(message.starts_with(mistake.message)) << message;
+  else
+    EXPECT_EQ(message, mistake.message);
+}
+INSTANTIATE_TEST_SUITE_P(Mistakes, BadGasCase, testing::ValuesIn(mistakes));
+
+TEST(BadPatches, OverlapIsRefusedByTheMesh) {
+  const GasCase c = gas_case_of(good_case + "[[boundary]]\nname = \"jet\"\nside = \"z_low\"\n"
+                                            "to = [0.011, 1, 0]\ntype = \"wall\"\n");
+  const auto message = config_error([&] { (void)make_box_mesh(c.grid, MPI_COMM_WORLD); });
+  EXPECT_NE(message.find("\"bottom\" and \"jet\" overlap"), std::string::npos) << message;
+}
+
+TEST(BadPatches, AFaceWithoutABoundaryIsRefusedByTheMesh) {
+  const GasCase c = gas_case_of(with("side = \"x_high\"", "side = \"x_high\"\nto = [1, 1, 0.06]"));
+  const auto message = config_error([&] { (void)make_box_mesh(c.grid, MPI_COMM_WORLD); });
+  EXPECT_NE(message.find("side x_high: 12 faces have no boundary"), std::string::npos) << message;
+}
+
+TEST(BadGasCaseFile, AMissingFileIsAnErrorOnAllRanks) {
+  EXPECT_EQ(config_error([] { (void)read_gas_case("no_such.toml", MPI_COMM_WORLD); }),
+            "case file \"no_such.toml\" cannot be read: No such file or directory");
+}

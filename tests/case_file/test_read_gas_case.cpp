@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <granflux/cfd/box_mesh.hpp>
+
+#include "gas_case_text.hpp"
+
+using granflux::Vec3;
+using namespace granflux::cfd;
+using namespace granflux::test;
+
+TEST(ReadGasCase, TakesEveryKey) {
+  const GasCase c = gas_case_of(good_case);
+  EXPECT_EQ(c.grid.nodes[0], uniform_nodes(0.0, 0.044, 8));
+  EXPECT_EQ(c.grid.nodes[1], uniform_nodes(0.0, 0.010, 2));
+  EXPECT_EQ(c.grid.nodes[2], uniform_nodes(0.0, 0.120, 12));
+  EXPECT_EQ(c.grid.periodic, (std::array<bool, 3>{false, true, false}));
+  EXPECT_EQ(c.grid.blocks, (Index3{1, 1, 2}));
+
+  EXPECT_EQ(c.fluid.density, 1.2);
+  EXPECT_EQ(c.fluid.viscosity, 1.8e-5);
+  EXPECT_TRUE(c.fluid.gravity_given);
+  EXPECT_EQ(c.fluid.gravity, (Vec3{0, 0, -9.81}));
+  EXPECT_EQ(c.fluid.driving_pressure_gradient, (Vec3{0, -1.5, 0}));
+
+  ASSERT_EQ(c.boundaries.size(), 4u);
+  ASSERT_EQ(c.grid.patches.size(), 4u);
+  EXPECT_EQ(c.grid.patches[0].name, "bottom");
+  EXPECT_EQ(c.grid.patches[0].side, (Side{2, false}));
+  EXPECT_EQ(c.grid.patches[1].side, (Side{2, true}));
+  EXPECT_EQ(c.grid.patches[2].side, (Side{0, false}));
+  EXPECT_EQ(c.grid.patches[3].side, (Side{0, true}));
+  const BoundaryCondition& inlet = c.boundaries[0];
+  EXPECT_EQ(inlet.name, "bottom");
+  EXPECT_EQ(inlet.kind, BoundaryKind::inlet);
+  EXPECT_EQ(inlet.velocity, (Vec3{0, 0, 0.9}));
+  EXPECT_EQ(inlet.profile, BoundaryCondition::Profile::parabolic);
+  EXPECT_EQ(inlet.ramp_time, 0.1);
+  EXPECT_EQ(inlet.ramp_from, 0.01);
+  EXPECT_EQ(c.boundaries[1].kind, BoundaryKind::outlet);
+  EXPECT_EQ(c.boundaries[1].pressure, 5.0);
+  EXPECT_EQ(c.boundaries[2].kind, BoundaryKind::wall);
+  EXPECT_EQ(c.boundaries[2].velocity, (Vec3{0, 0, 0.1}));
+  EXPECT_EQ(c.boundaries[3].kind, BoundaryKind::slip);
+
+  EXPECT_EQ(c.initial_velocity, (Vec3{0, 0, 0.5}));
+  EXPECT_EQ(c.numerics.convection, ConvectionScheme::upwind2);
+  EXPECT_EQ(c.numerics.pressure_tolerance, 1e-8);
+  EXPECT_EQ(c.numerics.viscous_tolerance, 1e-9);
+  EXPECT_EQ(c.numerics.time_step, 1e-4);
+  EXPECT_EQ(c.numerics.end_time, 0.2);
+  EXPECT_EQ(c.output.fields, "post/gas");
+  EXPECT_EQ(c.output.every, 0.01);
+}
+
+TEST(ReadGasCase, LeavesDefaultsWhereKeysAreAbsent) {
+  const GasCase c = gas_case_of("[grid]\nsize = [1, 1, 1]\ncells = [4, 4, 4]\n"
+                                "periodic = [true, true, true]\n"
+                                "[fluid]\ndensity = 1\nviscosity = 1\n");
+  const GasCase defaults;
+  EXPECT_EQ(c.grid.nodes[2].front(), 0.0);
+  EXPECT_EQ(c.grid.blocks, (Index3{0, 0, 0}));
+  EXPECT_FALSE(c.fluid.gravity_given);
+  EXPECT_TRUE(c.boundaries.empty());
+  EXPECT_EQ(c.numerics.convection, defaults.numerics.convection);
+  EXPECT_EQ(c.numerics.pressure_tolerance, defaults.numerics.pressure_tolerance);
+  EXPECT_TRUE(c.output.fields.empty());
+}
+
+TEST(ReadGasCase, TakesNodesOfAStretchedBox) {
+  const GasCase c = gas_case_of(with("origin = [0.0, 0.0, 0.0]\nsize = [0.044, 0.010, 0.120]\n"
+                                     "cells = [8, 2, 12]",
+                                     "nodes_x = [0, 0.1, 0.3]\nnodes_y = [-1, 1]\n"
+                                     "nodes_z = [0.0, 0.5, 0.75, 2.0, 3.0]"));
+  EXPECT_EQ(c.grid.nodes[0], (std::vector<double>{0, 0.1, 0.3}));
+  EXPECT_EQ(c.grid.nodes[1], (std::vector<double>{-1, 1}));
+  EXPECT_EQ(c.grid.nodes[2], (std::vector<double>{0.0, 0.5, 0.75, 2.0, 3.0}));
+}
+
+TEST(ReadGasCase, MakesAMesh) {
+  const GasCase c = gas_case_of(good_case);
+  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.blocks.size(), 2u);
+  EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"bottom", "top", "left", "right"}));
+}
+
+TEST(ReadGasCase, PatchesShareASide) {
+  const GasCase c = gas_case_of(with("side = \"z_low\"", "side = \"z_low\"\nto = [0.022, 1, 0]") +
+                                "[[boundary]]\nname = \"floor\"\nside = \"z_low\"\n"
+                                "from = [0.022, -1, 0]\ntype = \"wall\"\n");
+  EXPECT_EQ(c.grid.patches[0].to, (Vec3{0.022, 1, 0}));
+  EXPECT_EQ(c.grid.patches[4].from, (Vec3{0.022, -1, 0}));
+  EXPECT_NO_THROW((void)make_box_mesh(c.grid, MPI_COMM_WORLD));
+}
