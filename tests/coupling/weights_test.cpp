@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <numeric>
+#include <omp.h>
+
+#include <granflux/coupling/weights.hpp>
+
+#include "sample_lattices.hpp"
+
+using namespace granflux;
+using namespace granflux::coupling;
+
+namespace {
+
+struct Cloud {
+  std::vector<Vec3> position;
+  std::vector<double> radius, value;
+};
+
+Cloud random_cloud(const cfd::Lattice& lattice, int count, unsigned seed = 5) {
+  std::mt19937 random(seed);
+  Cloud cloud;
+  for (int p = 0; p < count; ++p) {
+    cloud.position.push_back(sample_point(lattice, random));
+    cloud.radius.push_back(std::uniform_real_distribution(0.01, 0.2)(random));
+    cloud.value.push_back(std::normal_distribution()(random));
+  }
+  return cloud;
+}
+
+std::vector<double> random_field(std::size_t size) {
+  std::mt19937 random(9);
+  std::vector<double> field(size);
+  for (double& f : field)
+    f = std::normal_distribution()(random);
+  return field;
+}
+
+template <class Body> void for_each_case(Body&& body) {
+  for (const auto name : VoidFractionKernels::names)
+    for (const bool periodic : {false, true}) {
+      SCOPED_TRACE(std::string(name) + (periodic ? ", periodic" : ", walls"));
+      body(VoidFractionKernels::make("void_fraction", name),
+           sample_lattice({periodic, periodic, periodic}));
+    }
+}
+
+using Values = std::vector<double>;
+
+Values deposit(const Weights& weights, const Values& value) {
+  Values field(weights.window().size());
+  weights.deposit<double>(value, field);
+  return field;
+}
+
+Values sample(const Weights& weights, const Values& field) {
+  Values value(weights.particles());
+  weights.sample<double>(field, value);
+  return value;
+}
+
+TEST(Weights, DepositIsTheAdjointOfSample) {
+  for_each_case([](const AnyKernel& kernel, const cfd::Lattice& lattice) {
+    const auto cloud = random_cloud(lattice, 3000);
+    Weights weights;
+    weights.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+    EXPECT_EQ(weights.placed_count(), cloud.position.size());
+    const Values f = random_field(weights.window().size());
+    const Values dq = deposit(weights, cloud.value), sf = sample(weights, f);
+    const double by_particles =
+        std::inner_product(cloud.value.begin(), cloud.value.end(), sf.begin(), 0.);
+    const double by_cells = std::inner_product(dq.begin(), dq.end(), f.begin(), 0.);
+    double scale = 0;
+    for (std::size_t p = 0; p < sf.size(); ++p)
+      scale += std::abs(cloud.value[p] * sf[p]);
+    EXPECT_NEAR(by_particles, by_cells, 1e-14 * scale);
+  });
+}
+
+TEST(Weights, DepositKeepsTheSumAndSampleKeepsAConstant) {
+  for_each_case([](const AnyKernel& kernel, const cfd::Lattice& lattice) {
+    const auto cloud = random_cloud(lattice, 3000);
+    Weights weights;
+    weights.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+    const Values volume = deposit(weights, cloud.radius);
+    const double in = std::accumulate(cloud.radius.begin(), cloud.radius.end(), 0.);
+    EXPECT_NEAR(std::accumulate(volume.begin(), volume.end(), 0.), in, 1e-13 * in);
+    for (const double value : sample(weights, Values(weights.window().size(), 1.)))
+      EXPECT_NEAR(value, 1, 1e-14);
+  });
+}
+
+// Each entry once, by cell and by particle.
+TEST(Weights, DepositMatchesAPlainLoop) {
+  for_each_case([](const AnyKernel& kernel, const cfd::Lattice& lattice) {
+    const auto cloud = random_cloud(lattice, 500);
+    Weights weights;
+    weights.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+    Values plain(weights.window().size(), 0.);
+    for (std::size_t p = 0; p < weights.particles(); ++p)
+      for (std::size_t e = 0; e < weights.cells(p).size(); ++e)
+        plain[weights.cells(p)[e]] += cloud.value[p] * weights.shares(p)[e];
+    const Values deposited = deposit(weights, cloud.value);
+    for (std::size_t c = 0; c < plain.size(); ++c)
+      EXPECT_NEAR(deposited[c], plain[c], 1e-14);
+  });
+}
+
+// Bit for bit, whatever the number of threads.
+TEST(Weights, SameBitsForEveryNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  for_each_case([](const AnyKernel& kernel, const cfd::Lattice& lattice) {
+    const auto cloud = random_cloud(lattice, 3001);
+    Values deposited, sampled;
+    for (const int threads : {1, 2, 3, 7}) {
+      omp_set_num_threads(threads);
+      Weights weights;
+      weights.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+      const Values d = deposit(weights, cloud.value);
+      const Values s = sample(weights, random_field(weights.window().size()));
+      if (threads == 1)
+        deposited = d, sampled = s;
+      EXPECT_EQ(d, deposited) << threads;
+      EXPECT_EQ(s, sampled) << threads;
+    }
+  });
+  omp_set_num_threads(before);
+}
+
+TEST(Weights, VectorsGoLikeTheirComponents) {
+  const auto lattice = sample_lattice({false, true, false});
+  const auto cloud = random_cloud(lattice, 200);
+  Weights weights;
+  weights.build(Trilinear{}, LatticeLocator(lattice), cloud.position, cloud.radius);
+  std::vector<Vec3> vectors(cloud.value.size()), field(weights.window().size());
+  for (std::size_t p = 0; p < vectors.size(); ++p)
+    vectors[p] = {cloud.value[p], 2 * cloud.value[p], cloud.radius[p]};
+  weights.deposit<Vec3>(vectors, field);
+  const Values x = deposit(weights, cloud.value), z = deposit(weights, cloud.radius);
+  for (std::size_t c = 0; c < field.size(); ++c) {
+    EXPECT_EQ(field[c].x, x[c]);
+    EXPECT_EQ(field[c].z, z[c]);
+  }
+}
+
+TEST(Weights, LeavesOutWhatIsOutsideOrNotCoupled) {
+  const auto lattice = sample_lattice({false, true, false});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vec3> position{{0, 2, 1}, {5, 2, 1}, {0, 2, 1}, {0, nan, 1}, {0, 3.5, 1}};
+  const std::vector<double> radius(5, 0.1), value(5, 1.);
+  const std::vector<std::uint8_t> coupled{1, 1, 0, 1, 1};
+  for (const auto name : VoidFractionKernels::names) {
+    Weights weights;
+    weights.build(VoidFractionKernels::make("void_fraction", name), LatticeLocator(lattice),
+                  position, radius, coupled);
+    EXPECT_EQ(weights.placed_count(), 2u);
+    EXPECT_EQ(weights.outside_count(), 2u) << "a particle that is not coupled is not missed";
+    const std::vector<bool> placed{true, false, false, false, true};
+    for (std::size_t p = 0; p < 5; ++p)
+      EXPECT_EQ(weights.placed(p), placed[p]);
+    const Values field = deposit(weights, value);
+    EXPECT_NEAR(std::accumulate(field.begin(), field.end(), 0.), 2, 1e-14);
+    const Values back = sample(weights, Values(field.size(), 1.));
+    for (std::size_t p = 0; p < 5; ++p)
+      EXPECT_NEAR(back[p], placed[p] ? 1 : 0, 1e-14);
+  }
+}
+
+TEST(Weights, NoParticles) {
+  Weights weights;
+  EXPECT_EQ(weights.particles(), 0u);
+  weights.build(Trilinear{}, LatticeLocator(sample_lattice({false, true, false})), {}, {});
+  EXPECT_EQ(weights.particles(), 0u);
+  EXPECT_EQ(weights.window().size(), 0u);
+  weights.deposit<double>({}, {});
+  weights.sample<double>({}, {});
+}
+
+// A rank whose particles sit together has a small window, also across a periodic face, and also
+// where the host has not wrapped them for long.
+TEST(Weights, WindowIsTight) {
+  const auto lattice = sample_lattice({true, true, true});
+  const std::vector<Vec3> position{{-0.31, 1.01, 0.01}, {-0.29, 0.99, -0.01}, {-0.3, 41, 30}};
+  const std::vector<double> radius(3, 0.01);
+  Weights weights;
+  weights.build(Trilinear{}, LatticeLocator(lattice), position, radius);
+  EXPECT_EQ(weights.window().lo, (cfd::Index3{-1, -1, -1}));
+  EXPECT_EQ(weights.window().hi, (cfd::Index3{1, 1, 1}));
+}
+
+// Building again leaves nothing of before.
+TEST(Weights, BuildAnew) {
+  const auto lattice = sample_lattice({false, false, false});
+  const auto many = random_cloud(lattice, 1000), few = random_cloud(lattice, 10, 77);
+  Weights weights, fresh;
+  weights.build(Divided{}, LatticeLocator(lattice), many.position, many.radius);
+  weights.build(Trilinear{}, LatticeLocator(lattice), few.position, few.radius);
+  fresh.build(Trilinear{}, LatticeLocator(lattice), few.position, few.radius);
+  EXPECT_EQ(weights.window().lo, fresh.window().lo);
+  EXPECT_EQ(weights.window().hi, fresh.window().hi);
+  EXPECT_EQ(deposit(weights, few.value), deposit(fresh, few.value));
+}
+
+} // namespace
