@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+// granflux_cfd: runs the gas of a case file alone, without particles.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <mpi.h>
+#include <omp.h>
+
+#include <granflux/cfd/cgns_writer.hpp>
+#include <granflux/cfd/error.hpp>
+#include <granflux/cfd/gas_solver.hpp>
+#include <granflux/cfd/read_gas_case.hpp>
+#include <granflux/version.hpp>
+
+#include "progress.hpp"
+
+namespace {
+
+using namespace granflux;
+using namespace granflux::cfd;
+
+struct Options {
+  std::string case_file;
+  int threads = 0; ///< 0: as OMP_NUM_THREADS says, else one
+};
+
+/// Wall-clock seconds of the parts of a run.
+struct Seconds {
+  double set_up = 0, gas = 0, output = 0;
+};
+
+/// Times a piece of work and adds it to a sum.
+template <class Work> auto timed(double& sum, Work&& work) {
+  struct Stop {
+    double& sum;
+    double start = MPI_Wtime();
+    ~Stop() { sum += MPI_Wtime() - start; }
+  } stop{sum};
+  return work();
+}
+
+/// Mesh and solver know the case, but not which file it came from.
+template <class Work> auto naming_file(const std::string& file, Work&& work) {
+  try {
+    return work();
+  } catch (const ConfigError& error) {
+    throw ConfigError(file + ": " + error.what());
+  }
+}
+
+/// Equal steps to the end, none longer than the step asked for.
+long count_steps(const Numerics& numerics, const std::string& file) {
+  for (const auto& [key, value] :
+       {std::pair{"time_step", numerics.time_step}, std::pair{"end_time", numerics.end_time}})
+    if (!(value > 0))
+      throw ConfigError(fmt::format("{}: [numerics] {} is missing: a run of the gas alone needs a "
+                                    "number > 0 (s)",
+                                    file, key));
+  const double steps = std::ceil(numerics.end_time / numerics.time_step * (1 - 1e-12));
+  constexpr double most = 1e12;
+  if (steps > most)
+    throw ConfigError(fmt::format("{}: [numerics] time_step = {}: must be at least end_time / "
+                                  "{:g} (s)",
+                                  file, numerics.time_step, most));
+  return long(steps);
+}
+
+/// Writes the fields at the start, at the end, and at each first step past a multiple of `every`.
+class FieldOutput {
+public:
+  FieldOutput(const Mesh& mesh, const Output& output) : every_(output.every) {
+    if (!output.fields.empty())
+      writer_.emplace(mesh, output.fields);
+  }
+  void write_if_due(const GasSolver& gas, bool at_end) {
+    if (!writer_ || !(at_end || gas.time() >= double(next_) * every_ * (1 - 1e-9)))
+      return;
+    last_ = writer_->write(gas);
+    next_ = long(std::floor(gas.time() / every_ * (1 + 1e-9))) + 1;
+  }
+  [[nodiscard]] long files() const { return writer_ ? writer_->next() : 0; }
+  [[nodiscard]] const std::string& last() const { return last_; }
+
+private:
+  double every_;
+  long next_ = 0; ///< multiple of `every` that is written next
+  std::optional<CgnsWriter> writer_;
+  std::string last_;
+};
+
+std::string text_of(const Vec3& v) {
+  return fmt::format("{:>12.4e} {:>12.4e} {:>12.4e}", v.x, v.y, v.z);
+}
+
+void print_banner(const Mesh& mesh, const GasCase& gas_case, const std::string& file, long steps) {
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  const Index3 n = mesh.lattice->cells();
+  fmt::print("granflux_cfd {} ({}, {})\n", version, revision, compiler);
+  fmt::print("case {}: {} x {} x {} cells in {} blocks, {} ranks x {} threads\n", file, n[0], n[1],
+             n[2], mesh.blocks.size(), ranks, omp_get_max_threads());
+  fmt::print("{} steps of {:.6g} s to t = {:.6g} s\n\n", steps,
+             gas_case.numerics.end_time / double(steps), gas_case.numerics.end_time);
+  std::fflush(stdout);
+}
+
+/// Collective; rank 0 prints.
+void print_balances(const GasSolver& gas, bool prints) {
+  if (prints)
+    fmt::print("\n{:<24} {:>14} {:>14}\n", "boundary", "flux out m3/s", "pressure Pa");
+  for (const std::string& name : gas.mesh().boundaries) {
+    const double flux = gas.boundary_flux(name), pressure = gas.boundary_pressure(name);
+    if (prints)
+      fmt::print("{:<24} {:>14.6e} {:>14.6e}\n", name, flux, pressure);
+  }
+  if (!prints)
+    return;
+  const Balance& b = gas.balance();
+  fmt::print("{:<24} {:>14.6e}\n", "sum of fluxes", b.boundary_volume_flux);
+  fmt::print("\n{:<24} {:>12} {:>12} {:>12}\n", "momentum, last step [N]", "x", "y", "z");
+  for (const auto& [name, value] :
+       {std::pair{"rate of change", b.momentum_change}, std::pair{"convection", b.convection},
+        std::pair{"friction", b.friction}, std::pair{"pressure", b.pressure},
+        std::pair{"driving gradient", b.driving}, std::pair{"residual", b.momentum_residual}})
+    fmt::print("{:<24} {}\n", name, text_of(value));
+}
+
+/// Collective; the slowest rank counts.
+void print_times(Seconds seconds, const GasSolver& gas, bool prints) {
+  MPI_Allreduce(MPI_IN_PLACE, &seconds, 3, MPI_DOUBLE, MPI_MAX, gas.mesh().comm);
+  if (!prints)
+    return;
+  const Index3 n = gas.mesh().lattice->cells();
+  const double total = seconds.set_up + seconds.gas + seconds.output;
+  fmt::print("\n{:<24} {:>10} {:>7}\n", "part", "seconds", "share");
+  for (const auto& [name, value] :
+       {std::pair{"set-up", seconds.set_up}, std::pair{"gas", seconds.gas},
+        std::pair{"output", seconds.output}, std::pair{"total", total}})
+    fmt::print("{:<24} {:>10.3f} {:>6.1f}%\n", name, value, 100 * value / total);
+  fmt::print("{:<24} {:>10.1f} ns per cell and step\n", "gas",
+             1e9 * seconds.gas / (double(n[0]) * n[1] * n[2] * double(gas.steps())));
+}
+
+void run(const Options& options, MPI_Comm comm, bool prints) {
+  Seconds seconds;
+  const std::string& file = options.case_file;
+  const GasCase gas_case = read_gas_case(file, comm);
+  const long steps = count_steps(gas_case.numerics, file);
+  const double dt = gas_case.numerics.end_time / double(steps);
+
+  const Mesh mesh = timed(seconds.set_up, [&] {
+    return naming_file(file, [&] { return make_box_mesh(gas_case.grid, comm); });
+  });
+  if (prints)
+    print_banner(mesh, gas_case, file, steps);
+  FieldOutput output = naming_file(file, [&] { return FieldOutput(mesh, gas_case.output); });
+  const BlockFields void_fraction = make_fields(mesh, 1.0);
+  std::optional<GasSolver> gas;
+  timed(seconds.set_up, [&] {
+    naming_file(file, [&] { gas.emplace(mesh, gas_case); });
+    gas->initialise(void_fraction, gas_case.initial_velocity);
+  });
+
+  timed(seconds.output, [&] { output.write_if_due(*gas, false); });
+  Progress progress(steps, prints);
+  for (long step = 1; step <= steps; ++step) {
+    const StepReport report =
+        timed(seconds.gas, [&] { return gas->advance(dt, void_fraction, nullptr); });
+    timed(seconds.output, [&] { output.write_if_due(*gas, step == steps); });
+    progress.report(step, gas->time(), report);
+  }
+  print_balances(*gas, prints);
+  print_times(seconds, *gas, prints);
+  if (prints && output.files() > 0)
+    fmt::print("\n{} files, the last {}\n", output.files(), output.last());
+}
+
+/// Exit code where the command line asks for no run.
+std::optional<int> parse(int argc, char** argv, Options& options, bool prints) {
+  CLI::App app{"Runs the gas of a GranFlux case file alone. Start it under mpirun for several "
+               "ranks."};
+  app.add_option("case", options.case_file, "case file (TOML)")->required();
+  app.add_option("--threads", options.threads,
+                 "OpenMP threads of each rank (default: OMP_NUM_THREADS, else 1)")
+      ->check(CLI::Range(1, 1024));
+  app.set_version_flag("--version", fmt::format("granflux_cfd {} ({}, {} {})", version, revision,
+                                                compiler, compiler_flags));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0; // -h or --version
+    if (prints)
+      app.exit(error);
+    return asked ? EXIT_SUCCESS : EXIT_FAILURE;
+  }
+  return {};
+}
+
+void set_threads(int threads) {
+  if (threads > 0)
+    omp_set_num_threads(threads);
+  else if (std::getenv("OMP_NUM_THREADS") == nullptr)
+    omp_set_num_threads(1);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int provided = 0, rank = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const bool prints = rank == 0;
+  int code = EXIT_FAILURE;
+  const auto say = [&](const char* what) {
+    std::fflush(stdout);
+    fmt::print(stderr, "granflux_cfd: error: {}\n", what);
+  };
+  try {
+    Options options;
+    if (const std::optional<int> early = parse(argc, argv, options, prints)) {
+      code = *early;
+    } else {
+      set_threads(options.threads);
+      run(options, MPI_COMM_WORLD, prints);
+      code = EXIT_SUCCESS;
+    }
+  } catch (const ConfigError& error) { // on all ranks alike, as NumericalError
+    if (prints)
+      say(error.what());
+  } catch (const NumericalError& error) {
+    if (prints)
+      say(error.what());
+  } catch (const std::exception& error) { // perhaps on this rank alone: the others must not wait
+    say(error.what());
+    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+  }
+  MPI_Finalize();
+  return code;
+}
