@@ -180,7 +180,8 @@ void Boundaries::fill_velocity_correction(BlockFields& correction, int m) const 
   }
 }
 
-void Boundaries::fill_pressure(BlockFields& pressure, bool with_given) const {
+void Boundaries::fill_pressure(BlockFields& pressure, const BlockVectors& drag_slope,
+                               bool with_given) const {
   for (const BoundaryPatch& patch : patches_) {
     const auto b = std::size_t(patch.block);
     Field& p = pressure[b];
@@ -191,11 +192,15 @@ void Boundaries::fill_pressure(BlockFields& pressure, bool with_given) const {
         p[face.ghost] = (with_given ? 2 * c.pressure : 0.0) - p[face.cell];
         continue;
       }
-      double slope = 0;
-      if (face.inner != face.cell)
-        slope =
-            norm(at(x, face.ghost) - at(x, face.cell)) / norm(at(x, face.cell) - at(x, face.inner));
-      p[face.ghost] = p[face.cell] + slope * (p[face.cell] - p[face.inner]);
+      if (face.inner == face.cell) {
+        p[face.ghost] = p[face.cell];
+        continue;
+      }
+      const Vec3 outwards = at(x, face.ghost) - at(x, face.cell);
+      const Vec3 inwards = at(x, face.inner) - at(x, face.cell);
+      const Vec3 here = at(drag_slope[b], face.cell), inside = at(drag_slope[b], face.inner);
+      const double smooth = p[face.inner] - p[face.cell] - 0.5 * dot(here + inside, inwards);
+      p[face.ghost] = p[face.cell] - smooth * norm(outwards) / norm(inwards) + dot(here, outwards);
     }
   }
 }

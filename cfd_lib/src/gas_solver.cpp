@@ -53,11 +53,11 @@ struct GasSolver::Impl {
             make_eigen_pressure_solver(m, !boundaries.has_outlet(), c.numerics.pressure_tolerance)),
         eps(make_fields(m, 1)), eps_middle(make_fields(m, 1)), eps_inertia(make_fields(m, 1)),
         eps_rate(make_fields(m)), eps_rate_old(make_fields(m)), u(make_vectors(m)),
-        p(make_fields(m)), grad_p(make_vectors(m)), flux(make_faces(m)),
-        convection(make_vectors(m)), convection_old(make_vectors(m)), friction(make_vectors(m)),
-        a(make_fields(m)), r(make_vectors(m)), share(make_fields(m, 1)), inertia(make_fields(m)),
-        defect(make_fields(m)), spread(make_fields(m)), face_work(make_faces(m)),
-        conductance(make_faces(m)) {
+        p(make_fields(m)), grad_p(make_vectors(m)), drag_slope(make_vectors(m)),
+        flux(make_faces(m)), convection(make_vectors(m)), convection_old(make_vectors(m)),
+        friction(make_vectors(m)), a(make_fields(m)), r(make_vectors(m)), share(make_fields(m, 1)),
+        inertia(make_fields(m)), defect(make_fields(m)), spread(make_fields(m)),
+        face_work(make_faces(m)), conductance(make_faces(m)) {
     for (std::size_t b = 0; b < mesh.local.size(); ++b)
       system.coefficient.push_back(
           {Field(mesh.local[b].layout), Field(mesh.local[b].layout), Field(mesh.local[b].layout)});
@@ -71,7 +71,8 @@ struct GasSolver::Impl {
   void set_conductance();
   Vec3 boundary_friction() const;
   void predict(double dt, const MomentumExchange* exchange, double new_time, StepReport& report);
-  void project(double new_time, Drive drive, StepReport& report);
+  void project(double new_time, Drive drive, const MomentumExchange* exchange, StepReport& report);
+  void set_drag_slope(const MomentumExchange& exchange);
   void set_pressure_gradient(Drive drive);
   void check_finite() const;
   void take_balance(double dt, const MomentumExchange* exchange, const Vec3& friction_force,
@@ -113,7 +114,8 @@ struct GasSolver::Impl {
   BlockFields eps_rate, eps_rate_old; ///< d eps/dt that the last two fluxes satisfy [1/s]
   BlockVectors u;
   BlockFields p;
-  BlockVectors grad_p;                     ///< driving part included
+  BlockVectors grad_p;     ///< driving part included
+  BlockVectors drag_slope; ///< pressure gradient that balances the drag [Pa/m]
   FaceFields flux;                         ///< F [m3/s], along +direction
   BlockVectors convection, convection_old; ///< momentum leaving each cell [N]
   Vec3 outflow, outflow_old;               ///< of it, through the boundaries [N]
@@ -291,7 +293,8 @@ void GasSolver::Impl::predict(double dt, const MomentumExchange* exchange, doubl
 
 /// Pressure equation and correction: from a, r, share and the void fraction's rate to fluxes,
 /// pressure and velocity that satisfy continuity.
-void GasSolver::Impl::project(double new_time, Drive drive, StepReport& report) {
+void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchange* exchange,
+                              StepReport& report) {
   const Vec3 driving = drive == Drive::given ? fluid.driving_pressure_gradient : Vec3{};
   halo.exchange({&a, &share});
   halo.exchange(r);
@@ -309,8 +312,9 @@ void GasSolver::Impl::project(double new_time, Drive drive, StepReport& report) 
         double carried = 0;
         for (std::size_t m = 0; m < 3; ++m)
           carried += (on_face(r[b][m], w, f, s) - share_f * driving[int(m)]) * block.area[d][m][f];
-        flux[b][d][f] = mobility * carried;
-        system.coefficient[b][d][f] = mobility * share_f * block.conductance[d][f];
+        const double coefficient = mobility * share_f * block.conductance[d][f];
+        flux[b][d][f] = mobility * carried - coefficient * (p[b][f] - p[b][f - s]);
+        system.coefficient[b][d][f] = coefficient;
       });
     }
   }
@@ -329,8 +333,8 @@ void GasSolver::Impl::project(double new_time, Drive drive, StepReport& report) 
           f +=
               mobility * block.area[d][m][face.face] * (r[b][m][c] - share[b][c] * driving[int(m)]);
         coefficient = 2 * mobility * share[b][c] * block.conductance[d][face.face];
-        if (drive == Drive::given)
-          f -= patch.outward * coefficient * condition.pressure;
+        const double outside = drive == Drive::given ? condition.pressure : 0;
+        f -= patch.outward * coefficient * (outside - p[b][c]);
       } else {
         const Vec3 velocity = condition.kind == BoundaryKind::inlet
                                   ? boundaries.velocity(patch, face, new_time)
@@ -353,28 +357,31 @@ void GasSolver::Impl::project(double new_time, Drive drive, StepReport& report) 
                                    block.volume[c] * eps_rate[b][c];
               });
     imbalance[0] += sum_cells(block.layout, [&](std::ptrdiff_t c) { return system.rhs[b][c]; });
-    imbalance[1] +=
-        sum_cells(block.layout, [&](std::ptrdiff_t c) { return std::abs(system.rhs[b][c]); });
+    imbalance[1] += sum_cells(block.layout, [&, si = si, sj = sj, sk = sk, &fi = fi, &fj = fj,
+                                             &fk = fk](std::ptrdiff_t c) {
+      return std::abs(fi[c + si]) + std::abs(fi[c]) + std::abs(fj[c + sj]) + std::abs(fj[c]) +
+             std::abs(fk[c + sk]) + std::abs(fk[c]) + std::abs(block.volume[c] * eps_rate[b][c]);
+    });
   }
   if (!boundaries.has_outlet()) {
     MPI_Allreduce(MPI_IN_PLACE, imbalance, 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
     // Round-off of the sums is ~1e-13 of the fluxes; a real imbalance is far above it.
     if (std::abs(imbalance[0]) > 1e-9 * imbalance[1])
       throw NumericalError(
-          "gas: the domain has no outlet, but " + std::to_string(imbalance[0]) +
-          " m3/s must leave it (inlets, or particles inserted or deleted): add an outlet");
+          "gas: the domain has no outlet, but " + std::to_string(imbalance[0] * 1e6) +
+          " cm3/s must leave it (inlets, or particles inserted or deleted): add an outlet");
   }
 
-  const PressureReport solved = pressure_solver->solve(system, p);
+  BlockFields& increment = defect; // free again: its work was done in predict()
+  const PressureReport solved = pressure_solver->solve(system, increment);
   report.pressure_iterations = solved.iterations;
   report.pressure_residual = solved.residual;
-  set_pressure_gradient(drive);
-
+  halo.exchange({&increment});
   for (const BoundaryPatch& patch : boundaries.patches()) {
     const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
     for (const BoundaryFace& face : patch.faces) {
       double& coefficient = system.coefficient[b][d][face.face];
-      flux[b][d][face.face] += patch.outward * coefficient * p[b][face.cell];
+      flux[b][d][face.face] += patch.outward * coefficient * increment[b][face.cell];
       coefficient = 0; // done: the sweep below is for interior faces
     }
   }
@@ -383,10 +390,15 @@ void GasSolver::Impl::project(double new_time, Drive drive, StepReport& report) 
     for (std::size_t d = 0; d < 3; ++d) {
       const std::ptrdiff_t s = block.layout.stride[d];
       for_faces(block.layout, int(d), [&, s](std::ptrdiff_t f) {
-        flux[b][d][f] -= system.coefficient[b][d][f] * (p[b][f] - p[b][f - s]);
+        flux[b][d][f] -= system.coefficient[b][d][f] * (increment[b][f] - increment[b][f - s]);
       });
     }
+    for_cells(block.layout, [&](std::ptrdiff_t c) { p[b][c] += increment[b][c]; });
   }
+  if (exchange)
+    set_drag_slope(*exchange);
+  set_pressure_gradient(drive);
+
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     for (std::size_t m = 0; m < 3; ++m)
       for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
@@ -396,28 +408,68 @@ void GasSolver::Impl::project(double new_time, Drive drive, StepReport& report) 
   boundaries.fill_velocity(u, eps_middle, new_time);
 }
 
+/// The pressure gradient that balances the drag in each cell, for the face velocities as they
+/// are: with it the pressure on a face between dense and dilute cells is that of two half cells
+/// in series, not their mean, which would push the gas of the dilute one.
+void GasSolver::Impl::set_drag_slope(const MomentumExchange& exchange) {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    const Block& block = mesh.local[b];
+    for_cells(block.layout, [&](std::ptrdiff_t c) {
+      // u = sum over faces of (x_face - x_cell) F / eps over the volume: exact for uniform flow.
+      Vec3 velocity;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::ptrdiff_t s = block.layout.stride[d];
+        const auto add = [&](std::ptrdiff_t f, double outward, std::ptrdiff_t neighbour,
+                             double share_of_way) {
+          const double through = outward * flux[b][d][f] /
+                                 on_face(eps_middle[b], block.weight[d], f, s) * share_of_way /
+                                 block.volume[c];
+          for (std::size_t m = 0; m < 3; ++m)
+            velocity[int(m)] += through * (block.centre[m][neighbour] - block.centre[m][c]);
+        };
+        add(c, -1, c - s, 1 - block.weight[d][c]);
+        add(c + s, 1, c + s, block.weight[d][c + s]);
+      }
+      for (std::size_t m = 0; m < 3; ++m)
+        drag_slope[b][m][c] =
+            (exchange.drag_source[b][m][c] - exchange.drag_coefficient[b][c] * velocity[int(m)]) /
+            share[b][c];
+    });
+  }
+  halo.exchange(drag_slope);
+  for (const BoundaryPatch& patch : boundaries.patches())
+    for (const BoundaryFace& face : patch.faces)
+      for (Field& component : drag_slope[std::size_t(patch.block)])
+        component[face.ghost] = component[face.cell];
+}
+
 void GasSolver::Impl::set_pressure_gradient(Drive drive) {
   halo.exchange({&p});
-  boundaries.fill_pressure(p, drive == Drive::given);
+  boundaries.fill_pressure(p, drag_slope, drive == Drive::given);
   const Vec3 driving = drive == Drive::given ? fluid.driving_pressure_gradient : Vec3{};
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
     const auto [si, sj, sk] = block.layout.stride;
     const auto& [ai, aj, ak] = block.area;
-    for_cells(block.layout,
-              [&, si = si, sj = sj, sk = sk, &ai = ai, &aj = aj, &ak = ak](std::ptrdiff_t c) {
-                const auto face = [&](std::size_t d, std::ptrdiff_t f, std::ptrdiff_t s) {
-                  return on_face(p[b], block.weight[d], f, s);
-                };
-                const double low_i = face(0, c, si), high_i = face(0, c + si, si);
-                const double low_j = face(1, c, sj), high_j = face(1, c + sj, sj);
-                const double low_k = face(2, c, sk), high_k = face(2, c + sk, sk);
-                for (std::size_t m = 0; m < 3; ++m)
-                  grad_p[b][m][c] = driving[int(m)] + (high_i * ai[m][c + si] - low_i * ai[m][c] +
-                                                       high_j * aj[m][c + sj] - low_j * aj[m][c] +
-                                                       high_k * ak[m][c + sk] - low_k * ak[m][c]) /
-                                                          block.volume[c];
-              });
+    const auto& slope = drag_slope[b];
+    for_cells(block.layout, [&, si = si, sj = sj, sk = sk, &ai = ai, &aj = aj,
+                             &ak = ak](std::ptrdiff_t c) {
+      const auto face = [&](std::size_t d, std::ptrdiff_t f, std::ptrdiff_t s) {
+        const double w = block.weight[d][f];
+        double jump = 0; // (slope below - slope above) . (way from centre to centre)
+        for (std::size_t m = 0; m < 3; ++m)
+          jump += (slope[m][f - s] - slope[m][f]) * (block.centre[m][f] - block.centre[m][f - s]);
+        return on_face(p[b], block.weight[d], f, s) + w * (1 - w) * jump;
+      };
+      const double low_i = face(0, c, si), high_i = face(0, c + si, si);
+      const double low_j = face(1, c, sj), high_j = face(1, c + sj, sj);
+      const double low_k = face(2, c, sk), high_k = face(2, c + sk, sk);
+      for (std::size_t m = 0; m < 3; ++m)
+        grad_p[b][m][c] =
+            driving[int(m)] + (high_i * ai[m][c + si] - low_i * ai[m][c] + high_j * aj[m][c + sj] -
+                               low_j * aj[m][c] + high_k * ak[m][c + sk] - low_k * ak[m][c]) /
+                                  block.volume[c];
+    });
   }
 }
 
@@ -530,7 +582,7 @@ template <class Visit> void GasSolver::Impl::visit_state(Visit&& visit) {
   for (BlockFields* fields : {&eps, &eps_middle, &eps_inertia, &eps_rate, &eps_rate_old, &p})
     for (Field& field : *fields)
       visit(field.data(), field.size());
-  for (BlockVectors* vectors : {&u, &grad_p, &convection, &convection_old})
+  for (BlockVectors* vectors : {&u, &grad_p, &drag_slope, &convection, &convection_old})
     for (VectorField& vector : *vectors)
       for (Field& field : vector)
         visit(field.data(), field.size());
@@ -547,6 +599,11 @@ GasSolver::GasSolver(const Mesh& mesh, const GasCase& gas_case)
 GasSolver::~GasSolver() = default;
 
 void GasSolver::initialise(const BlockFields& void_fraction, Vec3 velocity, double time) {
+  initialise(void_fraction, make_vectors(impl_->mesh, velocity), time);
+}
+
+void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors& velocity,
+                           double time) {
   Impl& s = *impl_;
   s.time = time;
   s.steps = 0;
@@ -555,10 +612,12 @@ void GasSolver::initialise(const BlockFields& void_fraction, Vec3 velocity, doub
   s.eps_rate = s.eps_rate_old = make_fields(s.mesh);
   s.halo.exchange({&s.eps_middle});
   s.boundaries.fill_zero_gradient(s.eps_middle);
-  s.r = make_vectors(s.mesh, velocity);
+  s.p = make_fields(s.mesh);
+  s.drag_slope = make_vectors(s.mesh);
+  s.r = velocity;
   s.a = s.share = make_fields(s.mesh, 1);
   StepReport report;
-  s.project(time, Drive::none, report);
+  s.project(time, Drive::none, nullptr, report);
   s.p = make_fields(s.mesh); // that was a potential, not a pressure
   s.set_pressure_gradient(Drive::given);
   s.check_finite();
@@ -606,7 +665,7 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   Vec3 friction = 0.5 * s.boundary_friction();
   s.predict(dt, exchange, new_time, report);
   friction += 0.5 * s.boundary_friction();
-  s.project(new_time, Drive::given, report);
+  s.project(new_time, Drive::given, exchange, report);
   s.check_finite();
   s.take_balance(dt, exchange, friction, old_momentum);
 
@@ -721,9 +780,13 @@ double GasSolver::boundary_flux(const std::string& boundary) const {
 }
 
 std::vector<double> GasSolver::save() const {
-  std::vector<double> state;
-  impl_->visit_state(
-      [&](const double* values, std::size_t n) { state.insert(state.end(), values, values + n); });
+  std::size_t size = 0, at = 0;
+  impl_->visit_state([&](const double*, std::size_t n) { size += n; });
+  std::vector<double> state(size);
+  impl_->visit_state([&](const double* values, std::size_t n) {
+    std::copy_n(values, n, state.begin() + std::ptrdiff_t(at));
+    at += n;
+  });
   return state;
 }
 

@@ -49,9 +49,9 @@ public:
   void fill_velocity(BlockVectors& velocity, const BlockFields& void_fraction, double time) const;
   /// Ghosts of a correction to velocity component m, for homogeneous conditions.
   void fill_velocity_correction(BlockFields& correction, int m) const;
-  /// Ghosts of the pressure: outlet value (0 if not `with_given`), else continued linearly from
-  /// inside.
-  void fill_pressure(BlockFields& pressure, bool with_given = true) const;
+  /// Ghosts of the pressure: outlet value (0 if not `with_given`), else continued from inside,
+  /// linearly but for the part of the gradient that balances drag, which may jump between cells.
+  void fill_pressure(BlockFields& pressure, const BlockVectors& drag_slope, bool with_given) const;
   /// Ghosts equal to their cells.
   void fill_zero_gradient(BlockFields& field) const;
 

@@ -63,6 +63,7 @@ public:
 
   /// Void fraction before the first step. Restarts the solver's history: the initial velocity is
   /// made to satisfy continuity. Collective.
+  void initialise(const BlockFields& void_fraction, const BlockVectors& velocity, double time = 0);
   void initialise(const BlockFields& void_fraction, Vec3 velocity, double time = 0);
 
   /// One step of dt. `void_fraction` is that at the end of the step; `exchange` may be null for a
