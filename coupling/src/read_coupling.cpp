@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <granflux/coupling/read_coupling.hpp>
+
+#include <granflux/coupling/drag/laws.hpp>
+#include <granflux/coupling/kernel/kernels.hpp>
+
+namespace granflux::coupling {
+
+namespace {
+
+template <class List> std::vector<std::string> names_of() {
+  return {List::names.begin(), List::names.end()};
+}
+
+} // namespace
+
+CouplingOptions read_coupling(cfd::CaseFile& file) {
+  const cfd::CaseTable table = file.table("coupling");
+  constexpr cfd::NumberRange open_share{
+      .low = 0, .high = 1, .low_included = false, .high_included = false};
+  CouplingOptions options;
+  options.drag = table.word("drag", options.drag, names_of<DragLaws>());
+  options.void_fraction =
+      table.word("void_fraction", options.void_fraction, names_of<VoidFractionKernels>());
+  options.smoothing_width = table.number("smoothing_width", options.smoothing_width,
+                                         cfd::not_negative, "particle diameters");
+  options.model =
+      table.choice("model", options.model, {{"a", MomentumModel::a}, {"b", MomentumModel::b}});
+  options.void_fraction_floor =
+      table.number("void_fraction_floor", options.void_fraction_floor, open_share, "");
+  return options;
+}
+
+} // namespace granflux::coupling
