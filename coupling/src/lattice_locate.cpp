@@ -51,6 +51,8 @@ int LatticeAxis::wrap(int i) const {
 }
 
 double LatticeAxis::centre(int i) const {
+  if (0 <= i && i < cells_)
+    return centres_[std::size_t(i)];
   const int wrapped = wrap(i);
   return centres_[std::size_t(wrapped)] + (i - wrapped) / cells_ * length();
 }

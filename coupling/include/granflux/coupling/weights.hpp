@@ -49,6 +49,15 @@ public:
   template <class T> void sample(std::span<const T> field, std::span<T> value) const;
 
 private:
+  /// Shares found by one thread for its run of consecutive particles.
+  struct Run {
+    std::vector<cfd::Index3> cell;
+    std::vector<double> share;
+    std::size_t placed = 0, outside = 0;
+    Window window; ///< tight around its cells
+  };
+
+  void number_cells();
   void transpose();
 
   Window window_;
@@ -61,6 +70,9 @@ private:
   std::vector<std::size_t> cell_offset_{0};
   std::vector<std::uint32_t> particle_;
   std::vector<double> cell_share_;
+  // kept from build to build, so that they allocate once
+  std::vector<Run> runs_;
+  std::vector<std::vector<std::uint32_t>> tally_; ///< [thread][cell]
 };
 
 template <class T> void Weights::deposit(std::span<const T> value, std::span<T> field) const {
