@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The GranFlux developers
+# SPDX-License-Identifier: BSD-3-Clause
+# The program granflux_cfd as a user meets it. Usage: granflux_cfd_test.sh PROGRAM [MPIRUN...]
+set -euo pipefail
+
+program=$1
+shift
+launch=("$@")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+failures=0
+
+# expect CODE TEXT ARGUMENTS...: the exit code, and a text that the output must have.
+expect() {
+  local code=$1 text=$2 found=0 output
+  shift 2
+  output=$("${launch[@]}" "$program" "$@" 2>&1) || found=$?
+  if [[ $found -ne $code || $output != *"$text"* ]]; then
+    failures=$((failures + 1))
+    printf 'granflux_cfd %s\n  exit code %s, expected %s\n  expected text: %s\n%s\n\n' "$*" "$found" "$code" \
+      "$text" "$output"
+  fi
+  # An error is told once, not by every rank.
+  if [[ $code -ne 0 && $(grep -c "error:" <<<"$output") -gt 1 ]]; then
+    failures=$((failures + 1))
+    printf 'granflux_cfd %s: told its error more than once\n%s\n' "$*" "$output"
+  fi
+}
+
+cat >good.toml <<'TOML'
+[grid]
+size = [0.01, 0.01, 0.02]
+cells = [4, 4, 8]
+periodic = [true, true, false]
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+[[boundary]]
+name = "bottom"
+side = "z_low"
+type = "inlet"
+velocity = [0.0, 0.0, 0.5]
+[[boundary]]
+name = "top"
+side = "z_high"
+type = "outlet"
+[numerics]
+time_step = 3e-4
+end_time = 1e-3
+[output]
+fields = "gas"
+every = 5e-4
+[coupling]
+drag = "read by others"
+TOML
+
+expect 0 "4 steps of 0.00025 s to t = 0.001 s" good.toml
+expect 0 "3 files, the last gas_000002.cgns" good.toml --threads 2
+# 0.5 m/s through 1 cm2
+expect 0 "bottom                    -5.000000e-05" good.toml
+expect 0 "top                        5.000000e-05" good.toml
+[[ $(ls gas_*.cgns | wc -l) -eq 3 ]] || {
+  failures=$((failures + 1))
+  ls
+}
+expect 0 "granflux_cfd 0." --version
+expect 0 "case file (TOML)" --help
+
+expect 1 "case is required"
+expect 1 "--threads" good.toml --threads 0
+expect 1 'error: case file "none.toml" cannot be read: No such file or directory' none.toml
+sed 's/1.2/-1.2/' good.toml >density.toml
+expect 1 "error: density.toml: [fluid] density = -1.2: must be a number > 0 (kg/m3)" density.toml
+sed 's/^time_step.*//' good.toml >no_step.toml
+expect 1 "error: no_step.toml: [numerics] time_step is missing" no_step.toml
+sed 's/fields = "gas"/fields = "none\/gas"/' good.toml >no_folder.toml
+expect 1 'error: no_folder.toml: [output] fields = "none/gas": the folder "none" does not exist' no_folder.toml
+sed 's/"z_high"/"z_low"/' good.toml >overlap.toml
+expect 1 'error: overlap.toml: boundaries "bottom" and "top" overlap' overlap.toml
+sed 's/cells = .*/cells = [1, 1, 1]\nblocks = [1, 2, 1]/' good.toml >blocks.toml
+expect 1 'error: blocks.toml: [grid] blocks: ' blocks.toml
+
+if ((failures)); then
+  echo "$failures failures"
+  exit 1
+fi
+echo "all as expected"

@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 The GranFlux developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Each check finds the fault it is for, in a small tree made for it, and none in a clean one.
+
+Usage: checks_can_fail.py CLANG_FORMAT
+"""
+
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import format as format_check
+import layering
+import licences
+import registered
+
+CLANG_FORMAT = sys.argv.pop(1)
+HEAD = "// SPDX-FileCopyrightText: 2026 The GranFlux developers\n// SPDX-License-Identifier: {}\n"
+BSD = HEAD.format("BSD-3-Clause")
+GPL = HEAD.format("GPL-2.0-or-later")
+
+
+class Checks(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(tempfile.mkdtemp())
+        self.write(".clang-format", "BasedOnStyle: LLVM\n")
+        for script in registered.SCRIPTS:
+            self.write(script, BSD).chmod(0o755)
+        self.write("cfd_lib/CMakeLists.txt", BSD + "add_library(a src/a.cpp include/a.hpp)\n")
+        self.write("cfd_lib/src/a.cpp", BSD + "#include <granflux/cfd/a.hpp>\n")
+        self.write("cfd_lib/include/a.hpp", BSD + "int a();\n")
+        self.write("coupling/CMakeLists.txt", BSD + "add_library(b src/b.cpp)\n")
+        self.write("coupling/src/b.cpp", BSD + "#include <granflux/cfd/a.hpp>\n")
+
+    def tearDown(self):
+        shutil.rmtree(self.root)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def assert_one_fault(self, faults, text):
+        self.assertEqual(len(faults), 1, faults)
+        self.assertIn(text, faults[0])
+
+    def test_a_clean_tree_has_no_faults(self):
+        self.assertEqual(layering.faults_of(self.root), [])
+        self.assertEqual(licences.faults_of(self.root), [])
+        self.assertEqual(registered.faults_of(self.root), [])
+        self.assertEqual(format_check.faults_of(self.root, CLANG_FORMAT), [])
+
+    def test_an_arrow_the_wrong_way(self):
+        self.write("cfd_lib/src/a.cpp", BSD + "#include <granflux/coupling/b.hpp>\n")
+        self.assert_one_fault(layering.faults_of(self.root), "cfd_lib/src/a.cpp:3")
+
+    def test_a_host_header_in_a_library(self):
+        self.write("coupling/src/b.cpp", BSD + '#include "fix_nve.h"\n')
+        self.assert_one_fault(layering.faults_of(self.root), "host's header")
+
+    def test_a_file_of_another_folder(self):
+        self.write("cfd_lib/src/a.cpp", BSD + '#include "../../coupling/src/b.cpp"\n')
+        self.assert_one_fault(layering.faults_of(self.root), "outside cfd_lib")
+
+    def test_a_solver_library_in_a_public_header(self):
+        self.write("cfd_lib/include/a.hpp", BSD + "#include <Eigen/Dense>\n")
+        self.assert_one_fault(layering.faults_of(self.root), "public headers")
+
+    def test_the_wrong_licence(self):
+        self.write("cfd_lib/src/a.cpp", GPL)
+        self.assert_one_fault(licences.faults_of(self.root), "BSD-3-Clause")
+        self.write("cfd_lib/src/a.cpp", BSD)
+        self.write("liggghts_plugin/c.cpp", BSD)
+        self.assert_one_fault(licences.faults_of(self.root), "GPL-2.0-or-later")
+
+    def test_a_file_without_a_licence(self):
+        self.write("tests/x.py", "print()\n")
+        self.assertEqual(len(licences.faults_of(self.root)), 2)
+
+    def test_an_orphaned_test(self):
+        self.write("tests/cfd/CMakeLists.txt", BSD + "# test_x.cpp\n")
+        self.write("tests/cfd/test_x.cpp", BSD)
+        self.assert_one_fault(registered.faults_of(self.root), "tests/cfd/test_x.cpp")
+
+    def test_a_public_header_outside_the_file_set(self):
+        self.write("cfd_lib/include/z.hpp", BSD)
+        self.assert_one_fault(registered.faults_of(self.root), "cfd_lib/include/z.hpp")
+
+    def test_a_script_that_cannot_be_run(self):
+        (self.root / "run").chmod(0o644)
+        self.assert_one_fault(registered.faults_of(self.root), "run: not executable")
+
+    def test_a_file_out_of_format(self):
+        self.write("cfd_lib/src/a.cpp", BSD + "int   a;\n")
+        self.assert_one_fault(format_check.faults_of(self.root, CLANG_FORMAT), "a.cpp")
+
+
+if __name__ == "__main__":
+    unittest.main()
