@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 
 #include <granflux/cfd/box_mesh.hpp>
 
@@ -91,5 +93,17 @@ TEST(ReadGasCase, PatchesShareASide) {
                                 "from = [0.022, -1, 0]\ntype = \"wall\"\n");
   EXPECT_EQ(c.grid.patches[0].to, (Vec3{0.022, 1, 0}));
   EXPECT_EQ(c.grid.patches[4].from, (Vec3{0.022, -1, 0}));
+  EXPECT_NO_THROW((void)make_box_mesh(c.grid, MPI_COMM_WORLD));
+}
+
+TEST(ReadGasCase, TheExampleOfTheManualIsGood) {
+  std::ifstream in(GRANFLUX_CASE_FILE_PAGE);
+  std::ostringstream page;
+  page << in.rdbuf();
+  const std::string text = page.str(), fence = "```toml\n";
+  const std::size_t begin = text.find(fence) + fence.size(), end = text.find("```", begin);
+  ASSERT_NE(text.find(fence), std::string::npos);
+  const GasCase c = gas_case_of(text.substr(begin, end - begin));
+  EXPECT_EQ(c.boundaries.size(), 8u);
   EXPECT_NO_THROW((void)make_box_mesh(c.grid, MPI_COMM_WORLD));
 }
