@@ -3,6 +3,7 @@
 
 #include "fix_couple.hpp"
 
+#include <array>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -33,7 +34,7 @@ namespace granflux::liggghts {
 
 namespace {
 
-constexpr int vector_length = 24; // entries of compute_vector
+constexpr int vector_length = 27; // entries of compute_vector
 constexpr char fluid_property[] = "granflux_fluid";
 constexpr double half_kick = 0.5; // of velocity Verlet: before and after the force
 
@@ -168,13 +169,10 @@ void FixCouple::begin() {
 
 void FixCouple::setup(int) {
   guard([&] {
-    modify->timing = 1; // the table of post_run needs the seconds of each fix
     host_->find_held();
     if (!coupler_)
       begin();
-    times_at_start_ = coupler_->times();
-    fields_seconds_ = particle_steps_ = 0;
-    largest_ = {};
+    start_run();
     clock_.set_time_step(update->dt);
 
     // The last run ended, or its restart file was written, with a force whose second half the
@@ -185,14 +183,33 @@ void FixCouple::setup(int) {
       exchange();
     apply(half_kick);
     fill_outputs();
-    progress_.start(long(update->ntimestep), long(update->laststep), MPI_Wtime());
+    start_timers(); // LIGGGHTS' own begin after the set-up too
   });
+}
+
+/// Counts from zero; also at the first step of a run without set-up (`run N pre no`).
+void FixCouple::start_run() {
+  running_ = true;
+  largest_ = {};
+  timing_of_script_ = modify->timing;
+  modify->timing = 1; // the table of post_run needs the seconds of each fix
+  for (int i = 0; i < modify->nfix; ++i)
+    modify->fix[i]->reset_time_recording();
+  start_timers();
+}
+
+void FixCouple::start_timers() {
+  times_at_start_ = coupler_->times();
+  fields_seconds_ = particle_steps_ = 0;
+  progress_.start(long(update->ntimestep), long(update->laststep), MPI_Wtime());
 }
 
 /// All other forces of the step are in the force array here, and velocities are those of the
 /// middle of the step.
 void FixCouple::pre_final_integrate() {
   guard([&] {
+    if (!running_)
+      start_run();
     if (update->dt != clock_.time_step())
       throw ConfigError(
           fmt::format("the time step changed from {} to {} s within a run: it must be "
@@ -252,7 +269,11 @@ void FixCouple::fill_outputs() {
 }
 
 void FixCouple::post_run() {
-  if (!coupler_ || update->ntimestep == update->firststep)
+  if (!running_)
+    return;
+  running_ = false;
+  modify->timing = timing_of_script_;
+  if (update->ntimestep == update->firststep)
     return; // no step was made: nothing to tell
   RunTimes times;
   const coupling::CouplingTimes now = coupler_->times();
@@ -295,54 +316,40 @@ double FixCouple::pressure_drop() {
 double FixCouple::compute_vector(int n) {
   if (!coupler_)
     return 0; // before the first run
+  if (n == 0)
+    return pressure_drop();
   const coupling::ExchangeReport& report = coupler_->report();
   const coupling::CouplingTimes& times = coupler_->times();
-  switch (n) {
-  case 0:
-    return pressure_drop();
-  case 1:
-  case 2:
-  case 3:
-    return report.drag[n - 1];
-  case 4:
-  case 5:
-  case 6:
-    return report.pressure_force[n - 4];
-  case 7:
-    return report.void_fraction_min;
-  case 8:
-    return report.particle_volume;
-  case 9:
-    return report.volume_residual;
-  case 10:
-    return report.momentum_residual;
-  case 11:
-    return relative_continuity_residual(report.gas);
-  case 12:
-    return relative_momentum_residual(coupler_->gas().balance());
-  case 13:
-    return coupler_->gas().time();
-  case 14:
-    return report.gas.courant;
-  case 15:
-    return double(report.particles);
-  case 16:
-    return double(report.outside);
-  case 17:
-    return double(report.law_out_of_range);
-  case 18:
-    return report.slip_reynolds_max;
-  case 19:
-    return report.gas.pressure_iterations;
-  case 20:
-    return times.gas;
-  case 21:
-    return times.locate + times.deposit + times.sample + times.messages;
-  case 22:
-    return times.force;
-  default:
-    return double(coupler_->gas().steps());
-  }
+  const cfd::Balance& balance = coupler_->gas().balance();
+  const std::array<double, vector_length - 1> values{
+      report.drag.x,
+      report.drag.y,
+      report.drag.z,
+      report.pressure_force.x,
+      report.pressure_force.y,
+      report.pressure_force.z,
+      report.void_fraction_min,
+      report.particle_volume,
+      report.volume_residual,
+      report.momentum_residual,
+      relative_continuity_residual(report.gas),
+      relative_momentum_residual(balance),
+      coupler_->gas().time(),
+      report.gas.courant,
+      double(report.particles),
+      double(report.outside),
+      double(report.law_out_of_range),
+      report.slip_reynolds_max,
+      double(report.gas.pressure_iterations),
+      double(coupler_->gas().steps()),
+      balance.momentum.x,
+      balance.momentum.y,
+      balance.momentum.z,
+      times.gas,
+      times.locate + times.deposit + times.sample + times.messages,
+      times.force,
+  };
+  return values[std::size_t(n) - 1];
 }
 
 int FixCouple::modify_param(int narg, char** arg) {

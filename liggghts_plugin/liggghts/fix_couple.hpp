@@ -48,6 +48,8 @@ private:
   void read_case();
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool& own);
   void begin();
+  void start_run();
+  void start_timers();
   void exchange();
   void apply(double share);
   void write_fields();
@@ -77,6 +79,8 @@ private:
   double last_force_dt_ = 0;
 
   // Of the current run.
+  bool running_ = false;
+  int timing_of_script_ = 0; ///< what the command modify_timing asked for
   coupling::CouplingTimes times_at_start_;
   double fields_seconds_ = 0;
   double particle_steps_ = 0; // this rank

@@ -1,0 +1,212 @@
+# SPDX-FileCopyrightText: 2026 The GranFlux developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of the programs granflux and liggghts on scripts given as text.
+
+CTest sets GRANFLUX, LIGGGHTS (may be empty) and MPIRUN.
+"""
+
+import os
+import pathlib
+import shlex
+import subprocess
+import tempfile
+import unittest
+
+GRANFLUX = os.environ["GRANFLUX"]
+LIGGGHTS = os.environ.get("LIGGGHTS", "")
+MPIRUN = shlex.split(os.environ["MPIRUN"])
+TIMEOUT = 90  # s; a run that takes longer hangs
+
+# 180 spheres above the floor of a box of 10 x 6 x 40 mm, with velocities that make them collide. No
+# random numbers: those of LIGGGHTS depend on the number of ranks.
+BED = """
+units           si
+atom_style      granular
+atom_modify     map array
+boundary        {boundary}
+newton          off
+communicate     single vel yes
+processors      * * 1
+region          box block 0 10e-3 0 6e-3 0 40e-3 units box
+create_box      1 box
+lattice         sc 1.1e-3 origin 0.45 0.45 {bottom}
+region          filled block 0 9.9e-3 0 5.5e-3 0 4.4e-3 units box
+create_atoms    1 region filled
+set             group all diameter 1e-3 density 1000
+velocity        all ramp vx -0.2 0.2 z 0 4e-3 units box
+velocity        all ramp vy -0.1 0.3 x 0 10e-3 sum yes units box
+velocity        all ramp vz 0.2 -0.3 y 0 6e-3 sum yes units box
+fix             kn all property/global kn peratomtypepair 1 500
+fix             kt all property/global kt peratomtypepair 1 140
+fix             gn all property/global gamman_abs peratomtypepair 1 2e-3
+fix             gt all property/global gammat_abs peratomtypepair 1 2e-3
+fix             mu all property/global coefficientFriction peratomtypepair 1 0.3
+pair_style      gran model hooke/stiffness tangential history absolute_damping on
+pair_coeff      * *
+neighbor        3e-4 bin
+neigh_modify    delay 0
+fix             zlow all wall/gran model hooke/stiffness tangential history &
+                primitive type 1 zplane 0 absolute_damping on
+fix             xlow all wall/gran model hooke/stiffness tangential history &
+                primitive type 1 xplane 0 absolute_damping on
+fix             xhigh all wall/gran model hooke/stiffness tangential history &
+                primitive type 1 xplane 10e-3 absolute_damping on
+fix             ylow all wall/gran model hooke/stiffness tangential history &
+                primitive type 1 yplane 0 absolute_damping on
+fix             yhigh all wall/gran model hooke/stiffness tangential history &
+                primitive type 1 yplane 6e-3 absolute_damping on
+fix             gravity all gravity 9.81 vector 0 0 -1
+fix             move all nve/sphere
+timestep        1e-5
+thermo_modify   lost error norm no
+"""
+
+CASE = """
+[grid]
+size = [10e-3, 6e-3, 40e-3]
+cells = [5, 3, 20]
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+[[boundary]]
+name = "inlet"
+side = "z_low"
+type = "inlet"
+velocity = [0, 0, 0.5]
+[[boundary]]
+name = "outlet"
+side = "z_high"
+type = "outlet"
+[[boundary]]
+name = "left"
+side = "x_low"
+type = "wall"
+[[boundary]]
+name = "right"
+side = "x_high"
+type = "wall"
+[[boundary]]
+name = "front"
+side = "y_low"
+type = "wall"
+[[boundary]]
+name = "back"
+side = "y_high"
+type = "wall"
+"""
+
+# Thermo output with every digit; residuals of void volume, momentum, gas mass, gas momentum last.
+THERMO = """
+variable        momentum equal vcm(all,z)*mass(all)
+thermo_style    custom step atoms ke v_momentum f_gas[1] f_gas[4] f_gas[8] f_gas[16] f_gas[17] &
+                f_gas[10] f_gas[11] f_gas[12] f_gas[13]
+thermo_modify   lost {lost} norm no format float %.17g
+thermo          {every}
+"""
+
+DUMP = """
+dump            d all custom {every} {name} id x y z vx vy vz omegax omegay omegaz
+dump_modify     d sort id format "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g"
+"""
+
+
+def bed(bottom=0.6, boundary="f f f"):
+    return BED.format(bottom=bottom, boundary=boundary)
+
+
+def bed_from(restart_file):
+    """The bed without box and particles, which come from a restart file."""
+    before, after = [], []
+    for line in bed().replace("&\n", "").splitlines():
+        command = line.split()[:1]
+        if command in (["region"], ["create_box"], ["lattice"], ["create_atoms"], ["set"], ["velocity"]):
+            continue
+        (after if after or command == ["fix"] else before).append(line)
+    return "\n".join([*before, f"read_restart {restart_file}", *after]) + "\n"
+
+
+def thermo(every=20, lost="error"):
+    return THERMO.format(every=every, lost=lost)
+
+
+def dump(name, every=50):
+    return DUMP.format(name=name, every=every)
+
+
+def couple(every=10, more=""):
+    return f"fix gas all granflux/couple case case.toml couple_every {every} {more}\n"
+
+
+class HostTest(unittest.TestCase):
+    """Each test works in a folder of its own."""
+
+    def setUp(self):
+        self.folder_ = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder_.cleanup)
+        self.folder = pathlib.Path(self.folder_.name)
+        self.write("case.toml", CASE)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def read(self, name):
+        return (self.folder / name).read_text()
+
+    def start(self, script, ranks=1, program=GRANFLUX, options=()):
+        """Runs a script; returns (exit code, all output)."""
+        self.write("in.test", script)
+        command = [*MPIRUN, "--timeout", str(TIMEOUT), "-n", str(ranks), program, "-in", "in.test", *options]
+        done = subprocess.run(
+            command,
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=TIMEOUT + 20,
+            errors="replace",
+            text=True,
+        )
+        return done.returncode, done.stdout
+
+    def run_script(self, script, ranks=1, program=GRANFLUX, options=()):
+        code, output = self.start(script, ranks, program, options)
+        self.assertEqual(code, 0, output)
+        self.assertNotIn("ERROR", output)
+        return output
+
+
+def thermo_rows(output):
+    """Rows of all thermo tables of an output, as one list of lists of numbers."""
+    rows, in_table = [], False
+    for line in output.splitlines():
+        words = line.split()
+        if words[:1] == ["Step"]:
+            in_table = True
+            continue
+        if not in_table:
+            continue
+        try:
+            rows.append([float(word) for word in words])
+        except ValueError:
+            in_table = in_table and words[0] == "granflux:" and "left" in line
+        if words == []:
+            in_table = False
+    return [row for row in rows if row]
+
+
+def last_snapshot(text):
+    """{id: [numbers]} of the last time in a dump."""
+    atoms = {}
+    for line in text.rsplit("ITEM: ATOMS", 1)[1].splitlines()[1:]:
+        words = line.split()
+        atoms[int(words[0])] = [float(word) for word in words[1:]]
+    return atoms
+
+
+def largest_difference(a, b, columns=9):
+    """Largest difference of two snapshots, column by column relative to the column's largest value."""
+    assert a.keys() == b.keys()
+    largest = 0.0
+    for c in range(columns):
+        scale = max(abs(row[c]) for row in a.values()) or 1.0
+        largest = max(largest, max(abs(a[i][c] - b[i][c]) for i in a) / scale)
+    return largest
