@@ -14,9 +14,9 @@ namespace {
 
 constexpr int consensus_tag = 2101, deposit_tag = 2102, sample_tag = 2103;
 
-/// Cells of a window along one direction that lie in one slab of blocks.
+/// Cells of a frame along one direction that lie in one slab of blocks.
 struct Run {
-  int slab = 0, window = 0, cell = 0, count = 0;
+  int slab = 0, frame = 0, cell = 0, count = 0;
 };
 
 /// Splits lo <= i < lo + count along direction d into runs, through every periodic image.
@@ -29,7 +29,7 @@ std::vector<Run> split(const cfd::Lattice& lattice, std::size_t d, int lo, int c
     const auto slab = std::upper_bound(starts.begin(), starts.end(), cell) - starts.begin() - 1;
     const int end = starts[std::size_t(slab) + 1];
     const int length = std::min(end - cell, lo + count - i);
-    runs.push_back({int(slab), i - lo, cell - starts[std::size_t(slab)], length});
+    runs.push_back({int(slab), i, cell - starts[std::size_t(slab)], length});
     i += length;
   }
   return runs;
@@ -47,12 +47,34 @@ WindowExchange::WindowExchange(const cfd::Mesh& mesh)
     local_[std::size_t(mesh.local[b].id)] = int(b);
 }
 
+Window WindowExchange::frame_around(const Window& window) const {
+  constexpr int slack = 2; // cells that particles may move on before the next consensus
+  if (window.size() == 0)
+    return {};
+  Window frame = window;
+  for (std::size_t d = 0; d < 3; ++d) {
+    frame.lo[d] -= slack;
+    frame.hi[d] += slack;
+    if (!mesh_.lattice->periodic[d]) {
+      frame.lo[d] = std::max(frame.lo[d], 0);
+      frame.hi[d] = std::min(frame.hi[d], mesh_.lattice->cells()[d]);
+    }
+  }
+  return frame;
+}
+
 void WindowExchange::bind(const Window& window) {
-  int changed = !bound_ || window.lo != window_.lo || window.hi != window_.hi;
-  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, mesh_.comm);
-  if (!changed)
-    return;
+  constexpr std::size_t too_wide = 4; // times the cells that a new frame would have
+  const Window wanted = frame_around(window);
+  const bool fits = window.size() == 0 ||
+                    (frame_.contains(window.lo) &&
+                     frame_.contains({window.hi[0] - 1, window.hi[1] - 1, window.hi[2] - 1}));
+  int outgrown = !bound_ || !fits || frame_.size() > too_wide * wanted.size();
   window_ = window;
+  MPI_Allreduce(MPI_IN_PLACE, &outgrown, 1, MPI_INT, MPI_LOR, mesh_.comm);
+  if (!outgrown)
+    return;
+  frame_ = wanted;
   bound_ = true;
   owners_ = find_owners();
   users_ = find_users();
@@ -61,17 +83,17 @@ void WindowExchange::bind(const Window& window) {
 std::vector<WindowExchange::Partner> WindowExchange::find_owners() const {
   const cfd::Lattice& lattice = *mesh_.lattice;
   std::map<int, Partner> owners;
-  if (window_.size() > 0) {
+  if (frame_.size() > 0) {
     std::array<std::vector<Run>, 3> runs;
     for (std::size_t d = 0; d < 3; ++d)
-      runs[d] = split(lattice, d, window_.lo[d], window_.extent()[d]);
+      runs[d] = split(lattice, d, frame_.lo[d], frame_.extent()[d]);
     for (const Run& k : runs[2])
       for (const Run& j : runs[1])
         for (const Run& i : runs[0]) {
           const int block = lattice.block({i.slab, j.slab, k.slab});
           Partner& owner = owners[mesh_.blocks[std::size_t(block)].rank];
           owner.overlaps.push_back({block,
-                                    {i.window, j.window, k.window},
+                                    {i.frame, j.frame, k.frame},
                                     {i.cell, j.cell, k.cell},
                                     {i.count, j.count, k.count}});
         }
@@ -140,7 +162,6 @@ std::vector<WindowExchange::Partner> WindowExchange::find_users() const {
 }
 
 template <class Row> void WindowExchange::rows(const Partner& partner, Row&& row) const {
-  const Index3 n = window_.extent();
   for (const Overlap& o : partner.overlaps) {
     const int b = local_[std::size_t(o.block)];
     for (int k = 0; k < o.count[2]; ++k)
@@ -148,13 +169,19 @@ template <class Row> void WindowExchange::rows(const Partner& partner, Row&& row
         const std::ptrdiff_t in_block =
             b < 0 ? 0
                   : mesh_.local[std::size_t(b)].layout.at(o.cell[0], o.cell[1] + j, o.cell[2] + k);
-        const auto in_window =
-            std::size_t(o.window[0]) +
-            std::size_t(n[0]) *
-                (std::size_t(o.window[1] + j) + std::size_t(n[1]) * std::size_t(o.window[2] + k));
-        row(b, in_block, in_window, std::size_t(o.count[0]));
+        row(b, in_block, Index3{o.frame[0], o.frame[1] + j, o.frame[2] + k},
+            std::size_t(o.count[0]));
       }
   }
+}
+
+WindowExchange::Inside WindowExchange::inside(const Index3& first, std::size_t length) const {
+  const int lo = std::max(first[0], window_.lo[0]);
+  const int hi = std::min(first[0] + int(length), window_.hi[0]);
+  if (lo >= hi || !window_.contains({lo, first[1], first[2]}))
+    return {};
+  return {window_.index({lo, first[1], first[2]}), std::size_t(lo - first[0]),
+          std::size_t(hi - lo)};
 }
 
 void WindowExchange::deposit(std::span<const double> from, std::span<cfd::BlockFields* const> to) {
@@ -173,27 +200,37 @@ void WindowExchange::deposit(std::span<const double> from, std::span<cfd::BlockF
   for (Partner& owner : owners_) {
     if (owner.rank == me)
       continue;
-    owner.buffer.resize(owner.cells * each);
+    owner.buffer.assign(owner.cells * each, 0);
     double* out = owner.buffer.data();
-    rows(owner, [&](int, std::ptrdiff_t, std::size_t in_window, std::size_t n) {
-      out = std::copy_n(from.data() + in_window * each, n * each, out);
+    rows(owner, [&](int, std::ptrdiff_t, const Index3& first, std::size_t n) {
+      const Inside part = inside(first, n);
+      std::copy_n(from.data() + part.in_window * each, part.length * each,
+                  out + part.in_row * each);
+      out += n * each;
     });
     MPI_Isend(owner.buffer.data(), int(owner.buffer.size()), MPI_DOUBLE, owner.rank, deposit_tag,
               mesh_.comm, &sends.emplace_back());
   }
+  const auto add = [&](int b, std::ptrdiff_t in_block, const double* values, std::size_t n) {
+    for (std::size_t f = 0; f < each; ++f) {
+      double* cells = (*to[f])[std::size_t(b)].data() + in_block;
+      for (std::size_t i = 0; i < n; ++i)
+        cells[i] += values[i * each + f];
+    }
+  };
   // In order of rank, whatever arrives first: the sums must not depend on timing.
   for (std::size_t u = 0; u < users_.size(); ++u) {
     const Partner& user = users_[u];
     MPI_Wait(&receives[u], MPI_STATUS_IGNORE);
     const double* in = user.buffer.data();
-    rows(user, [&](int b, std::ptrdiff_t in_block, std::size_t in_window, std::size_t n) {
-      const double* values = user.rank == me ? from.data() + in_window * each : in;
-      for (std::size_t f = 0; f < each; ++f) {
-        double* cells = (*to[f])[std::size_t(b)].data() + in_block;
-        for (std::size_t i = 0; i < n; ++i)
-          cells[i] += values[i * each + f];
+    rows(user, [&](int b, std::ptrdiff_t in_block, const Index3& first, std::size_t n) {
+      if (user.rank != me) {
+        add(b, in_block, std::exchange(in, in + n * each), n);
+        return;
       }
-      in += n * each;
+      const Inside part = inside(first, n);
+      add(b, in_block + std::ptrdiff_t(part.in_row), from.data() + part.in_window * each,
+          part.length);
     });
   }
   MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
@@ -224,7 +261,7 @@ void WindowExchange::sample(std::span<const cfd::BlockFields* const> from, std::
       continue;
     user.buffer.resize(user.cells * each);
     double* out = user.buffer.data();
-    rows(user, [&](int b, std::ptrdiff_t in_block, std::size_t, std::size_t n) {
+    rows(user, [&](int b, std::ptrdiff_t in_block, const Index3&, std::size_t n) {
       read(b, in_block, n, out);
       out += n * each;
     });
@@ -235,12 +272,14 @@ void WindowExchange::sample(std::span<const cfd::BlockFields* const> from, std::
     const Partner& owner = owners_[o];
     MPI_Wait(&receives[o], MPI_STATUS_IGNORE);
     const double* in = owner.buffer.data();
-    rows(owner, [&](int b, std::ptrdiff_t in_block, std::size_t in_window, std::size_t n) {
-      double* values = to.data() + in_window * each;
+    rows(owner, [&](int b, std::ptrdiff_t in_block, const Index3& first, std::size_t n) {
+      const Inside part = inside(first, n);
+      double* values = to.data() + part.in_window * each;
       if (owner.rank == me)
-        read(b, in_block, n, values);
+        read(b, in_block + std::ptrdiff_t(part.in_row), part.length, values);
       else
-        std::copy_n(std::exchange(in, in + n * each), n * each, values);
+        std::copy_n(std::exchange(in, in + n * each) + part.in_row * each, part.length * each,
+                    values);
     });
   }
   MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);

@@ -18,8 +18,8 @@ class WindowExchange {
 public:
   explicit WindowExchange(const cfd::Mesh& mesh);
 
-  /// Sets this rank's window. The pattern is built anew where any rank's window has changed.
-  /// Collective.
+  /// Sets this rank's window. The pattern is built for a frame some cells wider, and anew only
+  /// when a window of any rank has outgrown its frame or has become much smaller. Collective.
   void bind(const Window& window);
 
   /// Adds window values to the blocks under them, in order of rank. `from` holds to.size() numbers
@@ -30,11 +30,11 @@ public:
   void sample(std::span<const cfd::BlockFields* const> from, std::span<double> to);
 
 private:
-  /// Part of a window over one block.
+  /// Part of a frame over one block.
   struct Overlap {
-    int block = 0;        ///< index into Mesh::blocks
-    cfd::Index3 window{}; ///< first cell, relative to the window
-    cfd::Index3 cell{};   ///< first cell, in the block
+    int block = 0;       ///< index into Mesh::blocks
+    cfd::Index3 frame{}; ///< first cell, unwrapped as in the frame
+    cfd::Index3 cell{};  ///< first cell, in the block
     cfd::Index3 count{};
   };
   /// What this rank shares with another one, in an order both of them know.
@@ -45,16 +45,24 @@ private:
     std::vector<double> buffer;
   };
 
+  [[nodiscard]] Window frame_around(const Window& window) const;
   [[nodiscard]] std::vector<Partner> find_owners() const;
   [[nodiscard]] std::vector<Partner> find_users() const;
-  /// Calls row(local block, position in it, position in the window, length) for every run of
+  /// Calls row(local block, position in it, cell of the frame, length) for every run of
   /// i-neighbours shared with a partner, in the order both sides know. The block counts for users
-  /// only (-1 where an owner's is not local), the position in the window for owners only.
+  /// only (-1 where an owner's is not local), the cell of the frame for owners only.
   template <class Row> void rows(const Partner& partner, Row&& row) const;
+  /// The part of a row that lies in the window: first position in a window field, in the row, and
+  /// length.
+  struct Inside {
+    std::size_t in_window = 0, in_row = 0, length = 0;
+  };
+  [[nodiscard]] Inside inside(const cfd::Index3& first, std::size_t length) const;
 
   const cfd::Mesh& mesh_;
   std::vector<int> local_; ///< of every block: index into Mesh::local, -1 elsewhere
-  Window window_;
+  Window window_;          ///< order of the fields
+  Window frame_;           ///< what the pattern is for
   bool bound_ = false;
   std::vector<Partner> owners_; ///< of blocks under this rank's window, by rank
   std::vector<Partner> users_;  ///< whose windows lie over this rank's blocks, by rank
