@@ -175,22 +175,20 @@ class HostTest(unittest.TestCase):
 
 
 def thermo_rows(output):
-    """Rows of all thermo tables of an output, as one list of lists of numbers."""
-    rows, in_table = [], False
+    """Rows of all thermo tables of an output, as lists of numbers; other lines between are skipped."""
+    rows, width = [], 0
     for line in output.splitlines():
         words = line.split()
         if words[:1] == ["Step"]:
-            in_table = True
-            continue
-        if not in_table:
-            continue
-        try:
-            rows.append([float(word) for word in words])
-        except ValueError:
-            in_table = in_table and words[0] == "granflux:" and "left" in line
-        if words == []:
-            in_table = False
-    return [row for row in rows if row]
+            width = len(words)
+        elif not words:
+            width = 0
+        elif len(words) == width:
+            try:
+                rows.append([float(word) for word in words])
+            except ValueError:
+                pass
+    return rows
 
 
 def last_snapshot(text):

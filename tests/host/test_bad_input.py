@@ -44,7 +44,10 @@ class BadInput(HostTest):
         self.refused(script, "nowhere.toml")
 
     def test_unknown_key_of_the_case(self):
-        self.case_refused(CASE.replace("density", "densty"), "case.toml", "densty", "density")
+        self.case_refused(CASE.replace("density", "densty = 1\ndensity"), "case.toml", "densty")
+
+    def test_missing_key_of_the_case(self):
+        self.case_refused(CASE.replace("density", "#"), "case.toml", "density", "is missing")
 
     def test_bad_values_of_the_case(self):
         self.case_refused(CASE.replace("density = 1.2", "density = -1.2"), "density", "-1.2")
@@ -84,7 +87,7 @@ class BadInput(HostTest):
         self.refused(bed() + couple() + couple().replace("gas", "air") + RUN, "gas", "one gas only")
 
     def test_time_step_changed_within_a_run(self):
-        script = bed() + "fix dt all dt/reset 5 1e-6 1e-5 1e-4 units box\n" + couple() + RUN
+        script = bed() + "fix dt all dt/reset 5 1e-9 1e-4 1e-6 units box\n" + couple() + RUN
         self.refused(script, "the time step changed", before_first_step=False)
 
     def test_unknown_word_of_fix_modify(self):
