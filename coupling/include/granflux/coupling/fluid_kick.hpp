@@ -18,9 +18,12 @@ struct DragResponse {
 [[nodiscard]] inline DragResponse drag_response(double lambda) {
   // Below the limit the series is as exact as expm1 and cheaper; above, expm1 no longer cancels.
   if (lambda < 0.05) {
-    const double x = -lambda;
+    const double x = -lambda; // sum of x^n / (n+1)!, by products: a division costs more than all
     const double lag =
-        x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7 * (1 + x / 8))))));
+        x *
+        (1. / 2 +
+         x * (1. / 6 + x * (1. / 24 +
+                            x * (1. / 120 + x * (1. / 720 + x * (1. / 5040 + x * (1. / 40320)))))));
     return {1 + lag, lag};
   }
   const double mean = -std::expm1(-lambda) / lambda;
