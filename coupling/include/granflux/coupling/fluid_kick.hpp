@@ -18,7 +18,8 @@ struct DragResponse {
 [[nodiscard]] inline DragResponse drag_response(double lambda) {
   // Below the limit the series is as exact as expm1 and cheaper; above, expm1 no longer cancels.
   if (lambda < 0.05) {
-    const double x = -lambda; // sum of x^n / (n+1)!, by products: a division costs more than all
+    // (exp(x) - 1)/x - 1 = x/2! + x^2/3! + ... by Horner; products only, this is done every step.
+    const double x = -lambda;
     const double lag =
         x *
         (1. / 2 +
