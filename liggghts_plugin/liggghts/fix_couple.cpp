@@ -141,9 +141,12 @@ void FixCouple::say(const std::string& text) const {
     }
 }
 
+void FixCouple::init() {
+  guard([&] { check_script(*lmp); });
+}
+
 /// Before the first run: the gas at its initial or restored state, the particles where they are.
 void FixCouple::begin() {
-  check_script(*lmp);
   if (!options_.any_box)
     check_box(*lmp, gas_case_.grid, 2 * largest_radius(*lmp));
   if (const std::string note = settle_gravity(*lmp, gas_case_.fluid); !note.empty())

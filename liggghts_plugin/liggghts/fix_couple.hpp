@@ -33,6 +33,7 @@ public:
   int setmask() override;
   void post_create() override;
   void pre_delete(bool unfix) override;
+  void init() override;
   void setup(int) override;
   void pre_final_integrate() override;
   void post_run() override;

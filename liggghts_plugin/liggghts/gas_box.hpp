@@ -13,7 +13,7 @@ class LAMMPS;
 namespace granflux::liggghts {
 
 /// The script must be one that can be coupled: units si, spheres with radius and mass, an
-/// orthogonal box, plain Verlet steps, no rigid clumps. Throws ConfigError.
+/// orthogonal box, plain Verlet steps, no rigid clumps, no minimisation. Throws ConfigError.
 void check_script(LAMMPS_NS::LAMMPS& lammps);
 
 /// The gas grid against the simulation box: periodic directions and lengths must agree, other
