@@ -23,8 +23,8 @@ MAY_INCLUDE = {
 # Libraries that stay out of the public headers, and headers of a host that only its plugin sees.
 PRIVATE_LIBRARY = re.compile(r"(Eigen/|toml\+\+/|fmt/|CLI/|cgns)")
 HOST_HEADER = re.compile(
-    r"(liggghts/|lammps/)?(lammps|atom|fix|fix_\w+|pair|pair_\w+|modify|update|neighbor|force|error|"
-    r"memory|comm|domain|input|output|compute|contact_models|pointers|style_\w+)\.h$"
+    r"(liggghts/.*|lammps/.*|(lammps|atom|fix|fix_\w+|pair|pair_\w+|modify|update|neighbor|force|"
+    r"error|memory|comm|domain|input|output|compute|contact_models|pointers|style_\w+)\.h)$"
 )
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
