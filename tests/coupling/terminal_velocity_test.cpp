@@ -114,7 +114,6 @@ TEST(TerminalVelocity, OneWayFollowsThePublishedFall) {
 
 TEST(TerminalVelocity, TwoWayWithSmallParticlesIsWithinOnePercent) {
   const Fall end = fall(50, 1e-3, 1, 0.5); // d/dx 0.02
-  RecordProperty("slip", std::to_string(end.slip));
   EXPECT_NEAR(end.slip, terminal_slip, 0.01 * terminal_slip);
 }
 
