@@ -31,7 +31,7 @@ std::span<LAMMPS_NS::Fix*> fixes(LAMMPS_NS::LAMMPS& lammps) {
 
 constexpr char direction_name[] = {'x', 'y', 'z'};
 constexpr int shrink_wrapped = 2; // from here on in Domain::boundary
-constexpr int dynamics = 1;       // in Update::whichflag
+constexpr int minimisation = 2;   // in Update::whichflag
 
 } // namespace
 
@@ -48,7 +48,7 @@ void check_script(LAMMPS_NS::LAMMPS& lammps) {
   const std::string_view integrator = lammps.update->integrate_style;
   if (integrator.find("verlet") == std::string_view::npos)
     throw ConfigError(fmt::format("run_style {}: must be verlet", integrator));
-  if (lammps.update->whichflag != dynamics)
+  if (lammps.update->whichflag == minimisation)
     throw ConfigError("minimize does not move particles in time: unfix the gas before it");
   for (const LAMMPS_NS::Fix* fix : fixes(lammps)) {
     const std::string_view style = fix->style;

@@ -90,6 +90,9 @@ class BadInput(HostTest):
         script = bed() + "fix dt all dt/reset 5 1e-9 1e-4 1e-6 units box\n" + couple() + RUN
         self.refused(script, "the time step changed", before_first_step=False)
 
+    def test_minimize(self):
+        self.refused(bed() + couple() + "minimize 0 1e-4 10 10\n", "minimize")
+
     def test_unknown_word_of_fix_modify(self):
         self.refused(bed() + couple() + "fix_modify gas speed 3\n" + RUN, "Illegal fix_modify")
 
