@@ -336,6 +336,8 @@ ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, dou
     mine.handed_over += hand_over;
     mine.exchanged += norm(hand_over);
     mine.law_out_of_range += law.valid.contains(in) ? 0 : 1;
+    if (!fixed)
+      mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
     mine.slip_reynolds_max = std::max(mine.slip_reynolds_max, in.reynolds);
   });
 }

@@ -72,6 +72,7 @@ ExchangeSums& ExchangeSums::operator+=(const ExchangeSums& o) & {
   handed_over += o.handed_over;
   exchanged += o.exchanged;
   slip_reynolds_max = std::max(slip_reynolds_max, o.slip_reynolds_max);
+  stiffness_max = std::max(stiffness_max, o.stiffness_max);
   void_fraction_min = std::min(void_fraction_min, o.void_fraction_min);
   return *this;
 }
@@ -103,6 +104,7 @@ void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double in
   report.outside = long(sums.outside);
   report.law_out_of_range = long(sums.law_out_of_range);
   report.slip_reynolds_max = sums.slip_reynolds_max;
+  report.stiffness_max = sums.stiffness_max;
   report.void_fraction_min = sums.void_fraction_min;
   report.particle_volume = sums.particle_volume.value();
   const double volume_error = std::abs(sums.solid_volume.value() - report.particle_volume);

@@ -47,6 +47,9 @@ struct ExchangeReport {
   /// particles were booked / interval| over the gas's Balance::momentum_scale: one budget of both.
   double budget_residual = 0;
   double slip_reynolds_max = 0;
+  /// Largest b T/m of a particle that is not fixed: coupling interval over response time. Above
+  /// 1.5 gas in a packed bed is not stable (docs/theory_coupling.md, section 7).
+  double stiffness_max = 0;
   long law_out_of_range = 0; ///< particles outside the drag law's range of validity
 };
 
