@@ -9,6 +9,10 @@
 #include <mpi.h>
 #include <sstream>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
+
 namespace {
 
 /// Prints the failures of one rank as a whole, so that those of several ranks do not mix.
@@ -40,7 +44,13 @@ private:
 
 int main(int argc, char** argv) {
   int provided = 0;
+#if defined(__SANITIZE_ADDRESS__)
+  __lsan_disable(); // what modules of MPI leave behind that it loads, tries and unloads here
+#endif
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+#if defined(__SANITIZE_ADDRESS__)
+  __lsan_enable();
+#endif
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   testing::InitGoogleTest(&argc, argv);
@@ -55,6 +65,10 @@ int main(int argc, char** argv) {
   if (testing::UnitTest::GetInstance()->test_to_run_count() == 0)
     failed = 1;
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+#if defined(__SANITIZE_ADDRESS__)
+  // Now, not at exit: once MPI has unloaded its modules, what it keeps cannot be told from a leak.
+  __lsan_do_leak_check();
+#endif
   MPI_Finalize();
   // One rank tells mpirun; if all did, it would kill those that still write their failures.
   return rank == 0 ? failed : 0;
