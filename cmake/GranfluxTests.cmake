@@ -74,10 +74,11 @@ function(granflux_add_program_test name)
 endfunction()
 
 set(GRANFLUX_MPIRUN ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none)
-# Threads that wait must give way where tests oversubscribe the machine; copies between processes
-# through the kernel are forbidden in many containers, and Open MPI then complains on every rank.
+# Threads and ranks that wait must give way, or a test on a busy machine takes minutes in place of
+# seconds; copies between processes through the kernel are forbidden in many containers, and Open MPI
+# then complains on every rank.
 set(GRANFLUX_TEST_ENVIRONMENT
-    "GTEST_COLOR=no" "OMP_WAIT_POLICY=passive" "OMPI_MCA_btl_vader_single_copy_mechanism=none"
+    "GTEST_COLOR=no" "OMP_WAIT_POLICY=passive" "OMPI_MCA_mpi_yield_when_idle=1" "OMPI_MCA_btl_vader_single_copy_mechanism=none"
     "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp")
 
 find_package(GTest REQUIRED)
