@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <granflux/cfd/boundary.hpp>
+#include <granflux/cfd/gas_solver.hpp>
+#include <granflux/cfd/halo.hpp>
+#include <granflux/cfd/pressure_solver.hpp>
+#include <granflux/cfd/sweep.hpp>
+#include <granflux/cfd/viscous_solver.hpp>
+
+// Symbols as in docs/theory.md: eps void fraction, F = eps u.S volume flux through a face, a the
+// implicit inertia rho eps'/dt + beta, r the right-hand side without the pressure, both per volume.
+
+namespace granflux::cfd {
+
+using FaceFields = std::vector<std::array<Field, 3>>; ///< per local block and direction
+
+/// Linear interpolation to the face below position f.
+inline double on_face(const Field& q, const Field& weight, std::ptrdiff_t f,
+                      std::ptrdiff_t stride) {
+  return q[f - stride] + weight[f] * (q[f] - q[f - stride]);
+}
+
+/// Whether given pressures (outlets, driving gradient) act, or, for the initial projection, not.
+enum class Drive { none, given };
+
+/// State of the gas and the parts of its step, each in a file of its own: gas_convection.cpp,
+/// gas_predictor.cpp, gas_projection.cpp, gas_balance.cpp.
+struct GasSolver::Impl {
+  Impl(const Mesh& mesh, const GasCase& gas_case);
+
+  // The step, in order.
+  void extrapolate_inertia(double dt);
+  void convect();
+  template <class Scheme> void convect(const Scheme& scheme);
+  void set_conductance();
+  Vec3 boundary_friction() const;
+  void predict(double dt, const MomentumExchange* exchange, double new_time, StepReport& report);
+  void project(double new_time, Drive drive, const MomentumExchange* exchange, StepReport& report);
+  void make_solvable();
+  void set_drag_slope(const MomentumExchange& exchange);
+  void set_pressure_gradient(Drive drive);
+  void check_finite() const;
+  void take_balance(double dt, const MomentumExchange* exchange, const Vec3& friction_force,
+                    const Vec3& old_momentum);
+
+  [[nodiscard]] Vec3 momentum() const;
+  [[nodiscard]] std::string cell_name(std::int64_t encoded) const;
+  template <class Term> double sum(Term&& term) const {
+    double total = 0;
+    for (std::size_t b = 0; b < mesh.local.size(); ++b)
+      total += sum_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) { return term(b, c); });
+    return total;
+  }
+  template <class Term> double max(double least, Term&& term) const {
+    double largest = least;
+    for (std::size_t b = 0; b < mesh.local.size(); ++b)
+      largest =
+          max_cells(mesh.local[b].layout, largest, [&](std::ptrdiff_t c) { return term(b, c); });
+    return largest;
+  }
+  void measure(double dt, StepReport& report) const;
+
+  template <class Visit> void visit_state(Visit&& visit);
+
+  const Mesh& mesh;
+  Fluid fluid;
+  Numerics numerics;
+  Halo halo;
+  Boundaries boundaries;
+  ViscousSolver viscous;
+  std::unique_ptr<PressureSolver> pressure_solver;
+
+  double time = 0, dt_old = 0;
+  long steps = 0;
+  bool has_history = false;
+  double ab_now = 1, ab_old = 0; ///< Adams-Bashforth weights of this step
+
+  BlockFields eps;         ///< end of the last step
+  BlockFields eps_middle;  ///< mean over the present step
+  BlockFields eps_inertia; ///< carried by the convecting fluxes: what holds the gas's momentum
+  BlockFields eps_rate, eps_rate_old; ///< d eps/dt that the last two fluxes satisfy [1/s]
+  double eps_rate_noise = 0;          ///< round-off of its mean, at most [1/s]
+  BlockVectors u;
+  BlockFields p;
+  BlockVectors grad_p;                     ///< driving part included
+  BlockVectors drag_slope;                 ///< pressure gradient that balances the drag [Pa/m]
+  FaceFields flux;                         ///< F [m3/s], along +direction
+  BlockVectors convection, convection_old; ///< momentum leaving each cell [N]
+  Vec3 outflow, outflow_old;               ///< of it, through the boundaries [N]
+  BlockVectors friction;                   ///< viscous force on each cell, Crank-Nicolson mean [N]
+  BlockFields a;                           ///< kg/(m3 s)
+  BlockVectors r;                          ///< N/m3
+  BlockFields share;                       ///< of the pressure gradient that the gas bears
+  BlockFields inertia, defect, spread;
+  FaceFields face_work, conductance;
+  PressureSystem system;
+  Balance balance;
+};
+
+} // namespace granflux::cfd
