@@ -3,6 +3,7 @@
 
 #include "fix_couple.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string_view>
@@ -34,9 +35,10 @@ namespace granflux::liggghts {
 
 namespace {
 
-constexpr int vector_length = 27; // entries of compute_vector
+constexpr int vector_length = 29; // entries of compute_vector
 constexpr char fluid_property[] = "granflux_fluid";
-constexpr double half_kick = 0.5; // of velocity Verlet: before and after the force
+constexpr double stiffness_limit = 1.5; // docs/theory_coupling.md, section 7
+constexpr double half_kick = 0.5;       // of velocity Verlet: before and after the force
 
 /// Continues on one rank what it did before, up to the rounding of the next file's time.
 constexpr double time_rounding = 1e-9;
@@ -145,6 +147,15 @@ void FixCouple::init() {
   guard([&] { check_script(*lmp); });
 }
 
+/// Errors in grid and boundaries show here only: they are those of the case file.
+std::unique_ptr<coupling::Coupler> FixCouple::make_coupler() const {
+  try {
+    return std::make_unique<coupling::Coupler>(gas_case_, coupling_options_, world);
+  } catch (const ConfigError& e) {
+    throw ConfigError(options_.case_file + ": " + e.what());
+  }
+}
+
 /// Before the first run: the gas at its initial or restored state, the particles where they are.
 void FixCouple::begin() {
   if (!options_.any_box)
@@ -152,7 +163,7 @@ void FixCouple::begin() {
   if (const std::string note = settle_gravity(*lmp, gas_case_.fluid); !note.empty())
     say(fmt::format("granflux: {}\n", note));
 
-  auto coupler = std::make_unique<coupling::Coupler>(gas_case_, coupling_options_, world);
+  auto coupler = make_coupler();
   if (restored_) {
     coupler->load(restored_->coupler);
     clock_.restore(restored_->time_step, restored_->steps_left, restored_->owed);
@@ -238,8 +249,23 @@ void FixCouple::exchange() {
   const coupling::ExchangeReport& report =
       coupler_->exchange(host_->particles(true), clock_.interval());
   clock_.advanced();
+  warn_if_stiff(report.stiffness_max);
   largest_.add(report, coupler_->gas().balance());
   write_fields();
+}
+
+/// Once: the gas of a packed bed that is not marked as fixed is then not stable.
+void FixCouple::warn_if_stiff(double stiffness) {
+  if (stiffness <= stiffness_limit || warned_of_stiffness_)
+    return;
+  warned_of_stiffness_ = true;
+  say(fmt::format(
+      "granflux: WARNING: the coupling interval is {:.3g} times the response time of "
+      "the quickest particle; above {} gas in a packed bed that contacts hold may not "
+      "be stable: lower couple_every to {} or less, or name held particles by "
+      "fixed_group\n",
+      stiffness, stiffness_limit,
+      std::max(1, int(clock_.interval() / clock_.time_step() * stiffness_limit / stiffness))));
 }
 
 void FixCouple::apply(double share) {
@@ -351,6 +377,8 @@ double FixCouple::compute_vector(int n) {
       times.gas,
       times.locate + times.deposit + times.sample + times.messages,
       times.force,
+      report.budget_residual,
+      report.stiffness_max,
   };
   return values[std::size_t(n) - 1];
 }

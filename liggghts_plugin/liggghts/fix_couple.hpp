@@ -49,9 +49,11 @@ private:
   void read_case();
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool& own);
   void begin();
+  std::unique_ptr<coupling::Coupler> make_coupler() const;
   void start_run();
   void start_timers();
   void exchange();
+  void warn_if_stiff(double stiffness);
   void apply(double share);
   void write_fields();
   void fill_outputs();
@@ -81,7 +83,8 @@ private:
 
   // Of the current run.
   bool running_ = false;
-  int timing_of_script_ = 0; ///< what the command modify_timing asked for
+  bool warned_of_stiffness_ = false; ///< in this or an earlier run
+  int timing_of_script_ = 0;         ///< what the command modify_timing asked for
   coupling::CouplingTimes times_at_start_;
   double fields_seconds_ = 0;
   double particle_steps_ = 0; // this rank

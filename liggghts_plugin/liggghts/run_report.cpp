@@ -41,6 +41,8 @@ void LargestResiduals::add(const coupling::ExchangeReport& report, const cfd::Ba
   momentum = std::max(momentum, report.momentum_residual);
   gas_mass = std::max(gas_mass, relative_continuity_residual(report.gas));
   gas_momentum = std::max(gas_momentum, relative_momentum_residual(balance));
+  budget = std::max(budget, report.budget_residual);
+  stiffness = std::max(stiffness, report.stiffness_max);
   courant = std::max(courant, report.gas.courant);
   void_fraction_min = std::min(void_fraction_min, report.void_fraction_min);
   outside = std::max(outside, report.outside);
@@ -86,7 +88,9 @@ std::string run_report(const RunTimes& times, const LargestResiduals& largest,
   value("residual of momentum handed over", largest.momentum);
   value("residual of gas mass", largest.gas_mass);
   value("residual of gas momentum", largest.gas_momentum);
+  value("residual of momentum of gas and exchange", largest.budget);
   value("Courant number", largest.courant);
+  value("coupling interval over response time", largest.stiffness);
   value("smallest void fraction", largest.void_fraction_min);
   text += fmt::format("  {:<42}{:>11}\n", "particles outside the gas grid", largest.outside);
   text += fmt::format("  {:<42}{:>11}\n", "particles outside the drag law's range",

@@ -24,6 +24,8 @@ struct LargestResiduals {
   double momentum = 0;     ///< ExchangeReport::momentum_residual
   double gas_mass = 0;     ///< continuity residual over the scale of its terms
   double gas_momentum = 0; ///< momentum budget of the gas over the scale of its terms
+  double budget = 0;       ///< ExchangeReport::budget_residual
+  double stiffness = 0;    ///< ExchangeReport::stiffness_max
   double courant = 0;
   double void_fraction_min = 1; ///< smallest
   long outside = 0;             ///< particles of the group outside the gas grid

@@ -38,7 +38,7 @@ class Runs(HostTest):
         return bed() + couple(every, more) + thermo() + dump("dump.txt") + runs
 
     def test_output_table_and_progress(self):
-        output = self.run_script(self.script("run 300\n", more="progress 0.05"), ranks=2)
+        output = self.run_script(self.script("run 300\n", more="progress 0.002"), ranks=2)
         self.assertRegex(output, r"granflux: +[0-9.]+ % done, gas time .* steps/s, about .* left")
         for row in ("gas", "exchange", "fluid force", "contacts", "neighbour lists", "total"):
             self.assertRegex(output, rf"\n +{row} +[0-9.]+ +-?[0-9.]+ +-?[0-9.]+\n")
