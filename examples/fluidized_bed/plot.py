@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The GranFlux developers
 # SPDX-License-Identifier: BSD-3-Clause
 """plot.py RESULTS: picture.png (bed and gas at four times) and plot.png (pressure drop against

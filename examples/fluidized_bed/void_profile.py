@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The GranFlux developers
 # SPDX-License-Identifier: BSD-3-Clause
 """void_profile.py RESULTS [--from SECONDS] [--timestep S]: time-averaged void fraction across the bed
