@@ -137,8 +137,7 @@ struct Coupler::Impl {
   void sample_new_gas();
   ExchangeSums book(const ParticleView& view, double interval);
 
-  template <bool some_fixed>
-  CompensatedVec3 apply(const ParticleView& view, double dt, double share) const;
+  template <bool some_fixed> Vec3 apply(const ParticleView& view, double dt, double share) const;
 
   cfd::GasCase gas_case;
   CouplingOptions options;
@@ -384,9 +383,9 @@ ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
 }
 
 template <bool some_fixed>
-CompensatedVec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) const {
+Vec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) const {
   const Vec3 weight_of_gas = -gas.fluid().density * gas.fluid().gravity;
-  return sum_particles<CompensatedVec3>(view.size(), [&](std::size_t p, CompensatedVec3& mine) {
+  return sum_particles<Vec3>(view.size(), [&](std::size_t p, Vec3& mine) {
     FluidState& state = view.fluid[p];
     if (!(state.void_fraction > 0)) { // not coupled yet, outside the grid or not in the group
       state.force = {};
@@ -468,16 +467,15 @@ void Coupler::apply(const ParticleView& view, double dt, double share) {
 void Coupler::unapply(const ParticleView& view, double dt, double share) {
   Impl& s = *impl_;
   const Vec3 weight_of_gas = -s.gas.fluid().density * s.gas.fluid().gravity;
-  s.ledger.received(
-      sum_particles<CompensatedVec3>(view.size(), [&](std::size_t p, CompensatedVec3& mine) {
-        FluidState& state = view.fluid[p];
-        if (!(state.void_fraction > 0))
-          return;
-        const Vec3 exchanged = state.force - sphere_volume(view.radius[p]) * weight_of_gas;
-        const Vec3 impulse = -share * dt * exchanged;
-        state.impulse += impulse;
-        mine += impulse;
-      }));
+  s.ledger.received(sum_particles<Vec3>(view.size(), [&](std::size_t p, Vec3& mine) {
+    FluidState& state = view.fluid[p];
+    if (!(state.void_fraction > 0))
+      return;
+    const Vec3 exchanged = state.force - sphere_volume(view.radius[p]) * weight_of_gas;
+    const Vec3 impulse = -share * dt * exchanged;
+    state.impulse += impulse;
+    mine += impulse;
+  }));
 }
 
 const ExchangeReport& Coupler::report() const {

@@ -36,8 +36,7 @@ void Weights::build(const AnyKernel& any_kernel, const LatticeLocator& lattice,
   offset_.assign(count + 1, 0);
   runs_.resize(std::size_t(omp_get_max_threads()));
   for (Run& run : runs_) {
-    run.cell.clear();
-    run.share.clear();
+    run.entries.clear();
     run.placed = run.outside = 0;
     run.window = nothing;
   }
@@ -59,14 +58,14 @@ void Weights::build(const AnyKernel& any_kernel, const LatticeLocator& lattice,
               continue;
             }
             ++run.placed;
-            const std::size_t before = run.cell.size();
+            const std::size_t before = run.entries.size();
             kernel(lattice, ParticlePlace{centre, radius[p], *cell},
                    [&](const cfd::Index3& c, double share) {
-                     include(run.window, c, {c[0] + 1, c[1] + 1, c[2] + 1});
-                     run.cell.push_back(c);
-                     run.share.push_back(share);
+                     if (!run.window.contains(c)) [[unlikely]]
+                       include(run.window, c, {c[0] + 1, c[1] + 1, c[2] + 1});
+                     run.entries.push_back({c, share});
                    });
-            offset_[p + 1] = run.cell.size() - before;
+            offset_[p + 1] = run.entries.size() - before;
           }
         }
       },
@@ -91,14 +90,15 @@ void Weights::build(const AnyKernel& any_kernel, const LatticeLocator& lattice,
 void Weights::number_cells() {
   std::vector<std::size_t> first(runs_.size() + 1, 0);
   for (std::size_t t = 0; t < runs_.size(); ++t)
-    first[t + 1] = first[t] + runs_[t].cell.size();
+    first[t + 1] = first[t] + runs_[t].entries.size();
   cell_.resize(first.back());
   share_.resize(first.back());
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t t = 0; t < runs_.size(); ++t)
-    for (std::size_t e = 0; e < runs_[t].cell.size(); ++e) {
-      cell_[first[t] + e] = std::uint32_t(window_.index(runs_[t].cell[e]));
-      share_[first[t] + e] = runs_[t].share[e];
+    for (std::size_t e = 0; e < runs_[t].entries.size(); ++e) {
+      const auto& [cell, share] = runs_[t].entries[e];
+      cell_[first[t] + e] = std::uint32_t(window_.index(cell));
+      share_[first[t] + e] = share;
     }
 }
 

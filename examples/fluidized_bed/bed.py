@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 
 WIDTH, DEPTH, DIAMETER = 44e-3, 10e-3, 1.2e-3  # m
-PARTICLES, DENSITY, GRAVITY = 9240, 1000.0, 9.81
-WEIGHT_PER_AREA = PARTICLES * DENSITY * np.pi / 6 * DIAMETER**3 * GRAVITY / (WIDTH * DEPTH)  # Pa
+PARTICLES, DENSITY, GAS_DENSITY, GRAVITY = 9240, 1000.0, 1.2, 9.81
+# Less buoyancy: the pressure drop is that of the dynamic pressure.
+WEIGHT_PER_AREA = PARTICLES * (DENSITY - GAS_DENSITY) * np.pi / 6 * DIAMETER**3 * GRAVITY / (WIDTH * DEPTH)  # Pa
 
 
 def thermo(log):

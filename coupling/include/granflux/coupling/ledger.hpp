@@ -37,7 +37,7 @@ public:
   Ledger& operator=(const Ledger&) = delete;
 
   /// Impulse that apply() gave to particles of this rank [N s]; negative when taken back.
-  void received(const CompensatedVec3& impulse) { applied_ += impulse; }
+  void received(const Vec3& impulse) { applied_ += impulse; }
 
   /// Closes the books of one exchange: one reduction over all ranks, then fills the sums of
   /// `report`. `gas` is the balance of the gas step over `interval` [s]. Collective.

@@ -51,8 +51,11 @@ public:
 private:
   /// Shares found by one thread for its run of consecutive particles.
   struct Run {
-    std::vector<cfd::Index3> cell;
-    std::vector<double> share;
+    struct Entry {
+      cfd::Index3 cell;
+      double share;
+    };
+    std::vector<Entry> entries;
     std::size_t placed = 0, outside = 0;
     Window window; ///< tight around its cells
   };
