@@ -9,9 +9,9 @@ namespace granflux::cfd {
 namespace {
 
 /// Ghost cells of one patch, nearest layer first.
-template <class Body> void for_ghosts(const Patch& patch, Body&& body) {
+template <class Body> void for_ghosts(const Patch& patch, int layers, Body&& body) {
   const auto d = std::size_t(patch.side.direction);
-  for (int layer = 1; layer <= ghost_layers; ++layer) {
+  for (int layer = 1; layer <= layers; ++layer) {
     const int shift = patch.side.high ? layer : -layer;
     for (int k = patch.cells.lo[2]; k < patch.cells.hi[2]; ++k)
       for (int j = patch.cells.lo[1]; j < patch.cells.hi[1]; ++j)
@@ -25,7 +25,7 @@ template <class Body> void for_ghosts(const Patch& patch, Body&& body) {
 
 } // namespace
 
-Halo::Halo(const Mesh& mesh) : comm_(mesh.comm) {
+Halo::Halo(const Mesh& mesh, int layers) : comm_(mesh.comm) {
   int rank = 0;
   MPI_Comm_rank(comm_, &rank);
   std::map<int, int> local; // block id -> index into mesh.local
@@ -40,7 +40,7 @@ Halo::Halo(const Mesh& mesh) : comm_(mesh.comm) {
     for (const Patch& patch : info.patches) {
       if (!patch.link)
         continue;
-      for_ghosts(patch, [&](const Index3& ghost) {
+      for_ghosts(patch, layers, [&](const Index3& ghost) {
         const auto donor = resolve(mesh, {id, ghost});
         if (!donor)
           return; // behind a boundary further on: the boundary condition fills it
@@ -70,34 +70,33 @@ Halo::Halo(const Mesh& mesh) : comm_(mesh.comm) {
 
 template <class At> void Halo::exchange_values(int count, At&& at) const {
   constexpr int tag = 71;
-  std::vector<std::vector<double>> in(receives_.size()), out(sends_.size());
-  std::vector<MPI_Request> requests;
-  requests.reserve(in.size() + out.size());
-  const auto start = [&](std::vector<double>& buffer, const Message& message) {
-    buffer.resize(message.cells.size() * std::size_t(count));
-    requests.emplace_back();
-    return &requests.back();
+  requests_.clear();
+  const auto prepare = [&](const Message& message) {
+    message.values.resize(message.cells.size() * std::size_t(count));
+    requests_.emplace_back();
+    return message.values.data();
   };
-  for (std::size_t m = 0; m < in.size(); ++m) {
-    MPI_Request* request = start(in[m], receives_[m]);
-    MPI_Irecv(in[m].data(), int(in[m].size()), MPI_DOUBLE, receives_[m].rank, tag, comm_, request);
+  for (const Message& message : receives_) {
+    double* to = prepare(message);
+    MPI_Irecv(to, int(message.values.size()), MPI_DOUBLE, message.rank, tag, comm_,
+              &requests_.back());
   }
-  for (std::size_t m = 0; m < out.size(); ++m) {
-    MPI_Request* request = start(out[m], sends_[m]);
-    double* to = out[m].data();
+  for (const Message& message : sends_) {
+    double* to = prepare(message);
     for (int f = 0; f < count; ++f)
-      for (const auto& [block, position] : sends_[m].cells)
+      for (const auto& [block, position] : message.cells)
         *to++ = at(f, block)[position];
-    MPI_Isend(out[m].data(), int(out[m].size()), MPI_DOUBLE, sends_[m].rank, tag, comm_, request);
+    MPI_Isend(message.values.data(), int(message.values.size()), MPI_DOUBLE, message.rank, tag,
+              comm_, &requests_.back());
   }
   for (int f = 0; f < count; ++f)
     for (const Copy& copy : copies_)
       at(f, copy.to_block)[copy.to] = at(f, copy.from_block)[copy.from];
-  MPI_Waitall(int(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  for (std::size_t m = 0; m < in.size(); ++m) {
-    const double* from = in[m].data();
+  MPI_Waitall(int(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  for (const Message& message : receives_) {
+    const double* from = message.values.data();
     for (int f = 0; f < count; ++f)
-      for (const auto& [block, position] : receives_[m].cells)
+      for (const auto& [block, position] : message.cells)
         at(f, block)[position] = *from++;
   }
 }

@@ -14,9 +14,10 @@ namespace granflux::cfd {
 /// orientation of a link costs nothing.
 class Halo {
 public:
-  explicit Halo(const Mesh& mesh);
+  /// For the `layers` ghost layers next to the block's sides.
+  explicit Halo(const Mesh& mesh, int layers = ghost_layers);
 
-  /// Exchanges both ghost layers of the given fields (each on all local blocks) in one message
+  /// Exchanges the ghost layers of the given fields (each on all local blocks) in one message
   /// per neighbouring rank. Collective.
   void exchange(std::initializer_list<BlockFields*> fields) const;
   void exchange(BlockVectors& vectors) const;
@@ -29,12 +30,14 @@ private:
   struct Message {
     int rank = 0;
     std::vector<std::pair<int, std::ptrdiff_t>> cells; ///< local block and position
+    mutable std::vector<double> values; ///< kept, so that an exchange allocates nothing
   };
   template <class At> void exchange_values(int count, At&& at) const;
 
   MPI_Comm comm_;
   std::vector<Copy> copies_;
   std::vector<Message> sends_, receives_;
+  mutable std::vector<MPI_Request> requests_;
 };
 
 } // namespace granflux::cfd

@@ -15,6 +15,9 @@ namespace granflux::cfd {
 struct PressureSystem {
   std::vector<std::array<Field, 3>> coefficient; ///< per local block and direction, on low faces
   BlockFields rhs;
+  /// Norm over all cells of the numbers that rhs is the sum of: a residual below their rounding
+  /// is as good as none. 0 where not known.
+  double scale = 0;
 };
 
 struct PressureReport {
@@ -25,7 +28,7 @@ struct PressureReport {
 class PressureSolver {
 public:
   virtual ~PressureSolver() = default;
-  /// Collective. `p` holds a first guess and receives the solution on interior cells. A singular
+  /// Collective. `p` receives the solution on interior cells, whatever it held. A singular
   /// system (no pressure given anywhere) gets the solution of zero mean.
   virtual PressureReport solve(const PressureSystem& system, BlockFields& p) = 0;
 };
@@ -35,5 +38,13 @@ public:
 /// The same bits for any number of ranks and threads.
 std::unique_ptr<PressureSolver> make_eigen_pressure_solver(const Mesh& mesh, bool singular,
                                                            double tolerance);
+
+/// Conjugate gradients preconditioned by multigrid (multigrid.hpp), to a residual of `tolerance`
+/// of the right-hand side or the rounding of its scale. Throws NumericalError on all ranks where
+/// it does not get there. The same bits for any number of threads and in every run; for any cut
+/// into blocks and ranks the same to rounding where the cuts let the same cells join, else to the
+/// tolerance.
+std::unique_ptr<PressureSolver> make_multigrid_pressure_solver(const Mesh& mesh, bool singular,
+                                                               double tolerance);
 
 } // namespace granflux::cfd

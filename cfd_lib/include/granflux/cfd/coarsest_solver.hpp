@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::cfd {
+
+/// Direct solver (LDL^T by Eigen) for the few cells of the coarsest level: factorised once per
+/// time step, solved several times. Every rank gathers and solves the whole of it, which costs
+/// one message instead of two.
+class CoarsestSolver {
+public:
+  CoarsestSolver(const Mesh& mesh, bool singular);
+  ~CoarsestSolver();
+
+  /// Collective. Coefficients per local block and direction, as in PressureSystem. Throws
+  /// NumericalError on all ranks if the matrix is not positive definite.
+  void factorise(const std::vector<std::array<Field, 3>>& coefficient);
+  /// Collective: x = inverse(A) rhs with A the negated left-hand side of PressureSystem; of zero
+  /// mean, and for the part of rhs of zero mean, where A is singular.
+  void solve(const BlockFields& rhs, BlockFields& x);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace granflux::cfd

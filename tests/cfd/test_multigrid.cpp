@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The multigrid pressure solver against Eigen's direct one, against itself on other cuts, ranks
+// and threads, and in the number of its iterations.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <granflux/cfd/error.hpp>
+#include <granflux/cfd/multigrid.hpp>
+
+#include "pressure_problem.hpp"
+
+namespace granflux::cfd {
+namespace {
+
+using namespace testing;
+
+constexpr std::array<bool, 3> closed{false, false, false};
+constexpr Vec3 cubes{1, 1, 1};
+
+std::vector<double> solution(PressureProblem& problem, double tolerance,
+                             PressureReport* report = nullptr) {
+  const auto solver = make_multigrid_pressure_solver(problem.mesh, problem.singular, tolerance);
+  BlockFields p = make_fields(problem.mesh, 3); // what it holds must not matter
+  const PressureReport done = solver->solve(problem.system, p);
+  if (report)
+    *report = done;
+  return on_box(problem, p);
+}
+
+std::vector<double> direct_solution(PressureProblem& problem) {
+  BlockFields p = make_fields(problem.mesh);
+  make_eigen_pressure_solver(problem.mesh, problem.singular, 1e-14)->solve(problem.system, p);
+  return on_box(problem, p);
+}
+
+struct Shape {
+  const char* name;
+  Index3 cells, blocks;
+  std::array<bool, 3> periodic;
+  bool open;
+};
+
+class MultigridShape : public ::testing::TestWithParam<Shape> {};
+
+TEST_P(MultigridShape, AgreesWithTheDirectSolver) {
+  const Shape& shape = GetParam();
+  PressureProblem problem =
+      pressure_problem(shape.cells, {1, 1.5, 0.8}, shape.periodic, shape.blocks);
+  fill_system(problem, random_medium(1e3), shape.open);
+  PressureReport report;
+  const std::vector<double> p = solution(problem, 1e-13, &report);
+  EXPECT_GT(report.iterations, 0);
+  EXPECT_LE(report.residual, 1e-13);
+  EXPECT_LT(difference(p, direct_solution(problem)), 1e-10);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, MultigridShape,
+    ::testing::Values(Shape{"even_closed", {16, 12, 8}, {2, 2, 1}, closed, false},
+                      Shape{"even_open", {16, 12, 8}, {1, 2, 2}, closed, true},
+                      Shape{"odd_sizes", {13, 11, 9}, {2, 2, 1}, closed, false},
+                      Shape{"odd_blocks", {14, 10, 15}, {2, 1, 5}, closed, true},
+                      Shape{"all_periodic", {12, 8, 10}, {2, 2, 1}, {true, true, true}, false},
+                      Shape{"odd_periodic", {11, 9, 13}, {2, 1, 2}, {true, true, false}, true},
+                      Shape{"one_cell_wall", {40, 1, 24}, {2, 1, 2}, closed, true},
+                      Shape{
+                          "one_cell_periodic", {40, 24, 1}, {4, 1, 1}, {false, true, true}, false},
+                      Shape{"a_line", {1, 1, 700}, {1, 1, 4}, {true, false, false}, true},
+                      Shape{"many_blocks", {16, 16, 16}, {8, 8, 8}, closed, false}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+TEST(Multigrid, TakesBlocksThatAreTurned) {
+  for (const bool odd : {false, true}) {
+    const Index3 cells = odd ? Index3{13, 11, 10} : Index3{12, 12, 8};
+    PressureProblem plain = pressure_problem(cells, cubes, {false, true, false}, {2, 2, 1});
+    fill_system(plain, random_medium(100), true);
+    PressureProblem turned = pressure_problem(cells, cubes, {false, true, false}, {2, 2, 1});
+    turn_block(turned, 1, {1, 2, 0}, {0, 0, 0});
+    turn_block(turned, 2, {1, 0, 2}, {1, 0, 0});
+    turn_block(turned, 3, {0, 1, 2}, {1, 1, 0});
+    fill_system(turned, random_medium(100), true);
+    PressureReport report, plain_report;
+    const std::vector<double> p = solution(turned, 1e-14, &report);
+    EXPECT_LT(difference(p, solution(plain, 1e-14, &plain_report)), 1e-12);
+    EXPECT_LT(difference(p, direct_solution(plain)), 1e-11);
+    EXPECT_LE(report.iterations, plain_report.iterations + 3);
+  }
+}
+
+TEST(Multigrid, SameForAnyCutAndAnyNumberOfRanks) {
+  const Index3 cells{24, 24, 24};
+  PressureProblem whole = pressure_problem(cells, cubes, closed, {1, 1, 1}, MPI_COMM_SELF);
+  fill_system(whole, random_medium(100), false);
+  // Cuts at even cells: the same cells join, so a loose tolerance already gives the same.
+  PressureReport first;
+  const std::vector<double> loose = solution(whole, 1e-6, &first);
+  for (const Index3& blocks : {Index3{2, 2, 1}, {1, 2, 3}, {3, 3, 3}}) {
+    PressureProblem cut = pressure_problem(cells, cubes, closed, blocks);
+    fill_system(cut, random_medium(100), false);
+    PressureReport report;
+    EXPECT_LT(difference(solution(cut, 1e-6, &report), loose), 1e-12);
+    EXPECT_EQ(report.iterations, first.iterations);
+  }
+  // Elsewhere the tolerance decides.
+  const std::vector<double> tight = solution(whole, 1e-15);
+  for (const Index3& blocks : {Index3{5, 1, 1}, {1, 7, 2}}) {
+    PressureProblem cut = pressure_problem(cells, cubes, closed, blocks);
+    fill_system(cut, random_medium(100), false);
+    EXPECT_LT(difference(solution(cut, 1e-15), tight), 1e-12);
+  }
+}
+
+TEST(Multigrid, SameBitsForAnyNumberOfThreadsAndInEveryRun) {
+  PressureProblem problem = pressure_problem({32, 24, 30}, cubes, closed, {1, 1, 4});
+  fill_system(problem, random_medium(100), true);
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const std::vector<double> one = solution(problem, 1e-10);
+  for (const int n : {2, 3}) {
+    omp_set_num_threads(n);
+    EXPECT_EQ(solution(problem, 1e-10), one) << n << " threads";
+  }
+  omp_set_num_threads(threads);
+  // A solver that has solved something else before gives the same as a fresh one.
+  const auto used = make_multigrid_pressure_solver(problem.mesh, problem.singular, 1e-10);
+  PressureProblem other = pressure_problem({32, 24, 30}, cubes, closed, {1, 1, 4});
+  fill_system(other, bed_medium(1e3, 30), true, 9);
+  BlockFields p = make_fields(problem.mesh);
+  used->solve(other.system, p);
+  used->solve(problem.system, p);
+  EXPECT_EQ(on_box(problem, p), one);
+}
+
+TEST(Multigrid, CycleIsSymmetricAndPositive) {
+  struct Case {
+    Medium medium;
+    bool open;
+    Vec3 spacing;
+  };
+  for (const Case& one :
+       {Case{random_medium(1e6), true, cubes}, Case{ball_medium(1e6, 20), false, cubes},
+        Case{bed_medium(1e6, 20), true, {20, 1, 1}}}) {
+    PressureProblem problem =
+        pressure_problem({20, 18, 21}, one.spacing, {false, true, false}, {2, 1, 2});
+    fill_system(problem, one.medium, one.open, 3);
+    const BlockFields v = problem.system.rhs;
+    fill_system(problem, one.medium, one.open, 4);
+    const BlockFields w = problem.system.rhs;
+    Multigrid multigrid(problem.mesh, problem.singular);
+    multigrid.setup(problem.system);
+    const auto product = [&](const BlockFields& a, const BlockFields& b) {
+      double sum = 0;
+      for_each_cell(problem.mesh, [&](std::size_t block, std::ptrdiff_t c, const Vec3&) {
+        sum += a[block][c] * b[block][c];
+      });
+      MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+      return sum;
+    };
+    const BlockFields v_image = multigrid.apply(v), w_image = multigrid.apply(w);
+    const double vv = product(v, v_image), ww = product(w, w_image);
+    EXPECT_GT(vv, 0);
+    EXPECT_GT(ww, 0);
+    EXPECT_NEAR(product(v, w_image), product(w, v_image), 1e-12 * std::sqrt(vv * ww));
+  }
+}
+
+int iterations(int n, const Vec3& spacing, const Medium& medium, bool open) {
+  PressureProblem problem = pressure_problem({n, n, n}, spacing, closed, {2, 2, 1});
+  fill_system(problem, medium, open);
+  PressureReport report;
+  solution(problem, 1e-10, &report);
+  return report.iterations;
+}
+
+TEST(Multigrid, IterationsDoNotGrowWithTheMesh) {
+  for (const bool open : {false, true}) {
+    const int coarse = iterations(32, cubes, uniform_medium, open);
+    const int fine = iterations(64, cubes, uniform_medium, open);
+    EXPECT_LE(coarse, 9);
+    EXPECT_LE(fine, coarse + 2);
+  }
+}
+
+TEST(Multigrid, StretchedCellsAndStrongJumpsTakeFewIterations) {
+  const int n = 32;
+  for (const Vec3& spacing :
+       {cubes, Vec3{20, 1, 1}, Vec3{1, 20, 20}, Vec3{1, 1, 20}, Vec3{1, 5, 20}}) {
+    EXPECT_LE(iterations(n, spacing, uniform_medium, false), 10);
+    EXPECT_LE(iterations(n, spacing, bed_medium(1e6, n), true), 14);
+    EXPECT_LE(iterations(n, spacing, ball_medium(1e-6, n), false), 24);
+    EXPECT_LE(iterations(n, spacing, ball_medium(1e6, n), true), 24);
+  }
+}
+
+TEST(Multigrid, RoundingOfTheRightHandSideIsNotSolvedFor) {
+  PressureProblem problem = pressure_problem({12, 12, 12}, cubes, closed, {1, 2, 2});
+  fill_system(problem, uniform_medium, true);
+  problem.system.scale = 1e18;
+  PressureReport report;
+  solution(problem, 1e-10, &report);
+  EXPECT_EQ(report.iterations, 0);
+  problem.system.scale = 1e9;
+  solution(problem, 1e-10, &report);
+  EXPECT_GT(report.iterations, 0);
+  EXPECT_GT(report.residual, 1e-10);
+  for (Field& field : problem.system.rhs)
+    field.fill(0);
+  problem.system.scale = 0;
+  for (const double value : solution(problem, 1e-10, &report))
+    EXPECT_EQ(value, 0);
+  EXPECT_EQ(report.iterations, 0);
+}
+
+/// Position of cell (1,1,1) of block 0 on the rank that has it, else nothing.
+std::vector<std::ptrdiff_t> a_cell(const Mesh& mesh) {
+  if (mesh.local.empty() || mesh.local.front().id != 0)
+    return {};
+  return {mesh.local.front().layout.at(1, 1, 1)};
+}
+
+TEST(Multigrid, BadSystemsAreErrorsOnAllRanks) {
+  PressureProblem problem = pressure_problem({12, 12, 12}, cubes, closed, {1, 2, 2});
+  fill_system(problem, uniform_medium, true);
+  for (const std::ptrdiff_t c : a_cell(problem.mesh))
+    problem.system.rhs[0][c] = std::nan("");
+  EXPECT_THROW(solution(problem, 1e-10), NumericalError);
+  fill_system(problem, uniform_medium, true);
+  for (const std::ptrdiff_t c : a_cell(problem.mesh))
+    problem.system.coefficient[0][0][c] = std::nan("");
+  EXPECT_THROW(solution(problem, 1e-10), NumericalError);
+  fill_system(problem, uniform_medium, true);
+  for (const std::ptrdiff_t c : a_cell(problem.mesh))
+    for (std::size_t d = 0; d < 3; ++d) {
+      problem.system.coefficient[0][d][c] = 0;
+      problem.system.coefficient[0][d][c + problem.mesh.local[0].layout.stride[d]] = 0;
+    }
+  EXPECT_THROW(solution(problem, 1e-10), NumericalError);
+}
+
+} // namespace
+} // namespace granflux::cfd
