@@ -56,7 +56,7 @@ def draw_bed(results):
         axis.set_ylim(0, 120)
         axis.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm")
-    figure.savefig(results / "picture.png", dpi=110)
+    figure.savefig(results / "picture.png", dpi=110, bbox_inches="tight")
 
 
 def draw_pressure_drop(results):
