@@ -30,8 +30,8 @@ MomentumExchange make_exchange(const Mesh& mesh) {
 GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     : mesh(m), fluid(c.fluid), numerics(c.numerics), halo(m), boundaries(m, c.boundaries),
       viscous(m, halo, boundaries),
-      pressure_solver(
-          make_eigen_pressure_solver(m, !boundaries.has_outlet(), c.numerics.pressure_tolerance)),
+      pressure_solver(make_pressure_solver(c.numerics.pressure_solver, m, !boundaries.has_outlet(),
+                                           c.numerics.pressure_tolerance)),
       eps(make_fields(m, 1)), eps_middle(make_fields(m, 1)), eps_inertia(make_fields(m, 1)),
       eps_rate(make_fields(m)), eps_rate_old(make_fields(m)), u(make_vectors(m)), p(make_fields(m)),
       grad_p(make_vectors(m)), drag_slope(make_vectors(m)), flux(make_faces(m)),

@@ -168,6 +168,11 @@ Numerics read_numerics(const CaseTable& table) {
                                                        {{"central", ConvectionScheme::central},
                                                         {"upwind2", ConvectionScheme::upwind2},
                                                         {"limited", ConvectionScheme::limited}});
+  numerics.pressure_solver =
+      table.choice<PressureMethod>("pressure_solver", numerics.pressure_solver,
+                                   {{"auto", PressureMethod::automatic},
+                                    {"direct", PressureMethod::direct},
+                                    {"multigrid", PressureMethod::multigrid}});
   constexpr NumberRange tolerance{.low = 1e-15, .high = 1e-2};
   numerics.pressure_tolerance =
       table.number("pressure_tolerance", numerics.pressure_tolerance, tolerance, "");

@@ -55,6 +55,7 @@ velocity = [0.0, 0.0, 0.5]
 
 [numerics]
 convection = "upwind2"
+pressure_solver = "multigrid"
 pressure_tolerance = 1e-8
 viscous_tolerance = 1e-9
 time_step = 1e-4

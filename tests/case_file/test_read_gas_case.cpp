@@ -48,6 +48,7 @@ TEST(ReadGasCase, TakesEveryKey) {
 
   EXPECT_EQ(c.initial_velocity, (Vec3{0, 0, 0.5}));
   EXPECT_EQ(c.numerics.convection, ConvectionScheme::upwind2);
+  EXPECT_EQ(c.numerics.pressure_solver, PressureMethod::multigrid);
   EXPECT_EQ(c.numerics.pressure_tolerance, 1e-8);
   EXPECT_EQ(c.numerics.viscous_tolerance, 1e-9);
   EXPECT_EQ(c.numerics.time_step, 1e-4);
@@ -66,6 +67,7 @@ TEST(ReadGasCase, LeavesDefaultsWhereKeysAreAbsent) {
   EXPECT_FALSE(c.fluid.gravity_given);
   EXPECT_TRUE(c.boundaries.empty());
   EXPECT_EQ(c.numerics.convection, defaults.numerics.convection);
+  EXPECT_EQ(c.numerics.pressure_solver, PressureMethod::automatic);
   EXPECT_EQ(c.numerics.pressure_tolerance, defaults.numerics.pressure_tolerance);
   EXPECT_TRUE(c.output.fields.empty());
 }

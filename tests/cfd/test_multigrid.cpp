@@ -240,5 +240,40 @@ TEST(Multigrid, BadSystemsAreErrorsOnAllRanks) {
   EXPECT_THROW(solution(problem, 1e-10), NumericalError);
 }
 
+TEST(Multigrid, GasFlowIsTheSameAsWithTheDirectSolver) {
+  const auto flow = [](PressureMethod method, int& most_iterations) {
+    GasCase c = box_case({12, 10, 14}, {1, 1, 1.4}, {true, false, false}, {2, 2, 1});
+    boundary(c, "z_low").kind = BoundaryKind::inlet;
+    boundary(c, "z_low").velocity = {0, 0, 1};
+    boundary(c, "z_high").kind = BoundaryKind::outlet;
+    c.numerics.pressure_solver = method;
+    c.numerics.pressure_tolerance = 1e-14;
+    c.numerics.viscous_tolerance = 1e-14;
+    const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+    GasSolver gas(mesh, c);
+    MomentumExchange drag = make_exchange(mesh);
+    for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3& x) {
+      drag.drag_coefficient[b][p] = x.z < 0.7 ? 1e4 : 0; // a bed in the lower half
+    });
+    most_iterations = 0;
+    for (int step = 0; step < 5; ++step)
+      most_iterations = std::max(
+          most_iterations, gas.advance(0.01, make_fields(mesh, 1), &drag).pressure_iterations);
+    std::vector<double> state;
+    for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3&) {
+      for (std::size_t m = 0; m < 3; ++m)
+        state.push_back(gas.velocity()[b][m][p]);
+    });
+    return state;
+  };
+  int direct_iterations = 0, multigrid_iterations = 0;
+  const std::vector<double> direct = flow(PressureMethod::direct, direct_iterations);
+  const std::vector<double> multigrid = flow(PressureMethod::multigrid, multigrid_iterations);
+  EXPECT_EQ(direct_iterations, 0);
+  EXPECT_GT(multigrid_iterations, 0);
+  EXPECT_LE(multigrid_iterations, 24);
+  EXPECT_LT(difference(multigrid, direct), 1e-11);
+}
+
 } // namespace
 } // namespace granflux::cfd

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <granflux/cfd/box_mesh.hpp>
+#include <granflux/cfd/pressure_solver.hpp>
 
 namespace granflux::cfd {
 
@@ -39,6 +40,7 @@ enum class ConvectionScheme { central, upwind2, limited };
 
 struct Numerics {
   ConvectionScheme convection = ConvectionScheme::limited;
+  PressureMethod pressure_solver = PressureMethod::automatic;
   double pressure_tolerance = 1e-10; ///< of the residual, relative to the right-hand side
   double viscous_tolerance = 1e-10;
   double time_step = 0; ///< s; for a run without particles

@@ -47,4 +47,13 @@ std::unique_ptr<PressureSolver> make_eigen_pressure_solver(const Mesh& mesh, boo
 std::unique_ptr<PressureSolver> make_multigrid_pressure_solver(const Mesh& mesh, bool singular,
                                                                double tolerance);
 
+enum class PressureMethod {
+  automatic, ///< the faster one: direct up to 1000 cells, multigrid beyond
+  direct,    ///< make_eigen_pressure_solver
+  multigrid  ///< make_multigrid_pressure_solver
+};
+
+std::unique_ptr<PressureSolver> make_pressure_solver(PressureMethod method, const Mesh& mesh,
+                                                     bool singular, double tolerance);
+
 } // namespace granflux::cfd
