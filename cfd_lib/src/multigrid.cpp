@@ -17,7 +17,7 @@ constexpr int halo_layers = 1;         ///< a face couples nearest neighbours on
 
 /// Chebyshev smoothing damps the part of the spectrum of A over its diagonal above a quarter of
 /// its upper bound, which is 2 for any matrix of this kind (Gershgorin); what lies below is for
-/// the coarse levels. Three steps leave 1/26 of it. Saad, Iterative Methods for Sparse Linear
+/// the coarse levels. Three steps leave 1/13 of it. Saad, Iterative Methods for Sparse Linear
 /// Systems, 2nd ed., algorithm 12.1.
 constexpr int smoothing_steps = 3;
 constexpr double spectrum_high = 2, spectrum_low = spectrum_high / 4;
@@ -370,11 +370,14 @@ struct Multigrid::Impl {
       // Two visits make up for what the simple transfer lacks, where they are cheap.
       fine.visits = 4 * joined_cells <= cells ? 2 : 1;
     }
-    for (const Block& block : mesh.local)
-      zeros.emplace_back(block.layout);
-    for (const auto& level : levels)
-      if (level != levels.front())
-        couple(*level, level->coefficient);
+    zeros.resize(mesh.local.size());
+    for (std::size_t b = 0; b < mesh.local.size(); ++b)
+      for (const auto& level : levels)
+        for (int d = 0; d < 3; ++d)
+          if (closed_on_itself(level->mesh, mesh.local[b].id, d))
+            zeros[b] = Field(mesh.local[b].layout);
+    for (std::size_t l = 1; l < levels.size(); ++l)
+      couple(*levels[l], levels[l]->coefficient);
     coarsest = std::make_unique<CoarsestSolver>(levels.back()->mesh, singular);
   }
 
@@ -407,7 +410,7 @@ struct Multigrid::Impl {
 
   std::vector<std::unique_ptr<Mesh>> meshes; ///< of the coarse levels
   std::vector<std::unique_ptr<Level>> levels;
-  BlockFields zeros; ///< of the finest layouts, so large enough for all levels
+  BlockFields zeros; ///< where needed; of the finest layouts, so large enough for all levels
   std::unique_ptr<CoarsestSolver> coarsest;
   std::vector<double> row_sums;
 };
