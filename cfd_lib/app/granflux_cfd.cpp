@@ -130,8 +130,16 @@ void print_balances(const GasSolver& gas, bool prints) {
   for (const auto& [name, value] :
        {std::pair{"rate of change", b.momentum_change}, std::pair{"convection", b.convection},
         std::pair{"friction", b.friction}, std::pair{"pressure", b.pressure},
-        std::pair{"driving gradient", b.driving}, std::pair{"residual", b.momentum_residual}})
+        std::pair{"driving gradient", b.driving}, std::pair{"thermal buoyancy", b.thermal_buoyancy},
+        std::pair{"residual", b.momentum_residual}})
     fmt::print("{:<24} {}\n", name, text_of(value));
+  if (!gas.temperature())
+    return;
+  fmt::print("\n{:<24} {:>12}\n", "heat, last step [W]", "into the gas");
+  for (const auto& [name, value] :
+       {std::pair{"rate of change", b.heat_change}, std::pair{"convection", b.heat_convection},
+        std::pair{"conduction", b.heat_conduction}, std::pair{"residual", b.heat_residual}})
+    fmt::print("{:<24} {:>12.4e}\n", name, value);
 }
 
 /// Collective; the slowest rank counts.

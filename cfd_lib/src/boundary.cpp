@@ -42,8 +42,24 @@ BoundaryPatch bind(const Mesh& mesh, int local, const Patch& patch, int conditio
   return bound;
 }
 
-/// Parabola of mean 1 across each tangential direction in which the boundary ends at its edges.
-void shape_parabolic(const Mesh& mesh, std::vector<BoundaryPatch>& patches, int condition) {
+/// Directions along which nothing holds the gas back: periodic, or slip on both sides.
+std::array<bool, 3> open_directions(const Mesh& mesh,
+                                    const std::vector<BoundaryCondition>& conditions,
+                                    const std::vector<int>& condition_of) {
+  std::array<bool, 3> open{true, true, true};
+  for (const BlockInfo& info : mesh.blocks)
+    for (const Patch& patch : info.patches)
+      if (!patch.link)
+        open[std::size_t(patch.side.direction)] =
+            open[std::size_t(patch.side.direction)] &&
+            conditions[std::size_t(condition_of[std::size_t(patch.boundary)])].kind ==
+                BoundaryKind::slip;
+  return open;
+}
+
+/// Parabola of mean 1 across each tangential direction that is not open.
+void shape_parabolic(const Mesh& mesh, std::vector<BoundaryPatch>& patches, int condition,
+                     const std::array<bool, 3>& open) {
   std::array<double, 6> extent; // least, then negative largest coordinate of the boundary's corners
   extent.fill(std::numeric_limits<double>::max());
   const auto each = [&](auto&& body) {
@@ -70,8 +86,7 @@ void shape_parabolic(const Mesh& mesh, std::vector<BoundaryPatch>& patches, int 
     const auto [low, high] = corners(block, face);
     for (int m = 0; m < 3; ++m) {
       const double from = extent[std::size_t(m)], length = -extent[std::size_t(m + 3)] - from;
-      const bool periodic = mesh.lattice && mesh.lattice->periodic[std::size_t(m)];
-      if (m == patch.direction || periodic)
+      if (m == patch.direction || open[std::size_t(m)])
         continue;
       const double a = (low[m] - from) / length, b = (high[m] - from) / length;
       if (b - a < 1 - 1e-9) // mean of 6 s (1-s) over the face, so that the flux is exact
@@ -107,7 +122,7 @@ Boundaries::Boundaries(const Mesh& mesh, const std::vector<BoundaryCondition>& c
 
   for (int c = 0; c < int(conditions_.size()); ++c)
     if (conditions_[std::size_t(c)].profile == BoundaryCondition::Profile::parabolic)
-      shape_parabolic(mesh, patches_, c);
+      shape_parabolic(mesh, patches_, c, open_directions(mesh, conditions_, condition_of));
 
   int through = -1; // a wall that moves through itself
   for (const BoundaryPatch& patch : patches_) {
@@ -202,6 +217,33 @@ void Boundaries::fill_pressure(BlockFields& pressure, const BlockVectors& drag_s
       const double smooth = p[face.inner] - p[face.cell] - 0.5 * dot(here + inside, inwards);
       p[face.ghost] = p[face.cell] - smooth * norm(outwards) / norm(inwards) + dot(here, outwards);
     }
+  }
+}
+
+void Boundaries::fill_temperature(BlockFields& temperature,
+                                  const std::vector<std::array<Field, 3>>& conductance) const {
+  using Heat = BoundaryCondition::Heat;
+  for (const BoundaryPatch& patch : patches_) {
+    const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
+    const BoundaryCondition& c = condition(patch);
+    Field& t = temperature[b];
+    for (const BoundaryFace& face : patch.faces) {
+      t[face.ghost] = t[face.cell];
+      if (c.heat == Heat::temperature)
+        t[face.ghost] = 2 * c.temperature - t[face.cell];
+      else if (c.heat == Heat::flux)
+        t[face.ghost] += c.heat_flux * norm(at(mesh_.local[b].area[d], face.face)) /
+                         conductance[b][d][face.face];
+    }
+  }
+}
+
+void Boundaries::fill_temperature_correction(BlockFields& correction) const {
+  for (const BoundaryPatch& patch : patches_) {
+    Field& q = correction[std::size_t(patch.block)];
+    const bool given = condition(patch).heat == BoundaryCondition::Heat::temperature;
+    for (const BoundaryFace& face : patch.faces)
+      q[face.ghost] = given ? -q[face.cell] : q[face.cell];
   }
 }
 

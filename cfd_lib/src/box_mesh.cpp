@@ -104,7 +104,8 @@ void check_patches(const BoxGrid& grid, const std::vector<IndexBox>& boxes, cons
         throw ConfigError(
             "boundaries \"" + grid.patches[b].name + "\" and \"" + patch.name + "\" overlap on " +
             std::to_string(faces(intersection(boxes[a], boxes[b]))) + " faces of side " +
-            side_name(patch.side) + ": each face takes one boundary");
+            side_name(patch.side) +
+            ": each face takes one boundary; give each its own rectangle by `from` and `to`");
     bare[u(patch.side.direction)][patch.side.high] -= faces(boxes[a]);
   }
   for (int d = 0; d < 3; ++d)
@@ -140,7 +141,7 @@ double extended(const std::vector<double>& nodes, bool periodic, int i) {
 std::vector<double> uniform_nodes(double origin, double length, int n) {
   std::vector<double> nodes(u(n + 1));
   for (int i = 0; i <= n; ++i)
-    nodes[u(i)] = origin + length * i / n;
+    nodes[u(i)] = i < n ? origin + length * i / n : origin + length;
   return nodes;
 }
 

@@ -263,6 +263,8 @@ CgnsWriter::CgnsWriter(const Mesh& mesh, std::string path, long first)
 std::string CgnsWriter::write(const GasSolver& solver, const std::vector<NamedField>& extra) {
   std::vector<NamedField> scalars{{"Pressure", &solver.pressure()},
                                   {"VoidFraction", &solver.void_fraction()}};
+  if (solver.temperature())
+    scalars.push_back({"Temperature", solver.temperature()});
   scalars.insert(scalars.end(), extra.begin(), extra.end());
   return write(solver.time(), {{"Velocity", &solver.velocity()}}, scalars);
 }

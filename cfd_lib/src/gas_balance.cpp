@@ -19,6 +19,7 @@ void GasSolver::Impl::take_balance(double dt, const MomentumExchange* exchange,
                                    const Vec3& friction_force, const Vec3& old_momentum) {
   balance = {};
   balance.momentum = momentum();
+  balance.thermal_buoyancy = thermal_buoyancy;
   balance.momentum_change = (balance.momentum - old_momentum) / dt;
   balance.convection = -(ab_now * outflow + ab_old * outflow_old);
   balance.friction = friction_force;
@@ -44,26 +45,30 @@ void GasSolver::Impl::take_balance(double dt, const MomentumExchange* exchange,
       return force * mesh.local[b].volume[c];
     });
 
-  std::array<double, 23> all;
+  std::array<double, 26> all;
   std::size_t n = 0;
   const auto pack = [&](const Vec3& v) { all[n++] = v.x, all[n++] = v.y, all[n++] = v.z; };
   const auto unpack = [&](Vec3& v) { v = {all[n], all[n + 1], all[n + 2]}, n += 3; };
   all[n++] = balance.gas_volume_change;
   all[n++] = balance.boundary_volume_flux;
-  for (const Vec3* v : {&balance.momentum, &balance.momentum_change, &balance.convection,
-                        &balance.friction, &balance.pressure, &balance.driving, &balance.exchange})
+  for (const Vec3* v :
+       {&balance.momentum, &balance.momentum_change, &balance.convection, &balance.friction,
+        &balance.pressure, &balance.driving, &balance.exchange, &balance.thermal_buoyancy})
     pack(*v);
   MPI_Allreduce(MPI_IN_PLACE, all.data(), int(n), MPI_DOUBLE, MPI_SUM, mesh.comm);
   n = 0;
   balance.gas_volume_change = all[n++];
   balance.boundary_volume_flux = all[n++];
-  for (Vec3* v : {&balance.momentum, &balance.momentum_change, &balance.convection,
-                  &balance.friction, &balance.pressure, &balance.driving, &balance.exchange})
+  for (Vec3* v :
+       {&balance.momentum, &balance.momentum_change, &balance.convection, &balance.friction,
+        &balance.pressure, &balance.driving, &balance.exchange, &balance.thermal_buoyancy})
     unpack(*v);
   balance.momentum_residual = balance.momentum_change - balance.convection - balance.friction -
-                              balance.pressure - balance.driving - balance.exchange;
-  for (const Vec3* v : {&balance.momentum_change, &balance.convection, &balance.friction,
-                        &balance.pressure, &balance.driving, &balance.exchange})
+                              balance.pressure - balance.driving - balance.exchange -
+                              balance.thermal_buoyancy;
+  for (const Vec3* v :
+       {&balance.momentum_change, &balance.convection, &balance.friction, &balance.pressure,
+        &balance.driving, &balance.exchange, &balance.thermal_buoyancy})
     balance.momentum_scale += norm(*v);
   balance.momentum_scale += norm(balance.momentum) / dt;
 }

@@ -7,6 +7,29 @@
 
 namespace granflux::cfd {
 
+/// Boussinesq: the weight that the gas has less, or more, than at the reference temperature.
+void GasSolver::Impl::add_thermal_buoyancy() {
+  thermal_buoyancy = {};
+  if (!energy || energy->properties().expansion == 0)
+    return;
+  const Energy& properties = energy->properties();
+  const Vec3 slope = -fluid.density * properties.expansion * fluid.gravity; // N/(m3 K)
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    const Block& block = mesh.local[b];
+    const Field& temperature = energy->temperature()[b];
+    const auto lift = [&](std::ptrdiff_t c) {
+      return eps_middle[b][c] * (temperature[c] - properties.reference_temperature);
+    };
+    for_cells(block.layout, [&](std::ptrdiff_t c) {
+      for (std::size_t m = 0; m < 3; ++m)
+        r[b][m][c] += lift(c) * slope[int(m)];
+    });
+    thermal_buoyancy +=
+        sum_cells(block.layout, [&](std::ptrdiff_t c) { return lift(c) * block.volume[c]; }) *
+        slope;
+  }
+}
+
 void GasSolver::Impl::set_conductance() {
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
@@ -29,6 +52,12 @@ Vec3 GasSolver::Impl::boundary_friction() const {
                     (u[b][std::size_t(m)][face.ghost] - u[b][std::size_t(m)][face.cell]);
   }
   return force;
+}
+
+DiffusionSolver::Unknown GasSolver::Impl::component(std::size_t m) {
+  return {"momentum equation: component " + std::string(1, "xyz"[m]),
+          [this, m](std::size_t b) -> Field& { return u[b][m]; },
+          [this, m](BlockFields& q) { boundaries.fill_velocity_correction(q, int(m)); }};
 }
 
 /// Momentum without the new pressure: leaves a and r, with which the new velocity will be
@@ -87,8 +116,8 @@ void GasSolver::Impl::predict(double dt, const MomentumExchange* exchange, doubl
     if (scale > 0)
       report.viscous_iterations =
           std::max(report.viscous_iterations,
-                   viscous.solve(int(m), inertia, conductance, defect, std::sqrt(scale),
-                                 numerics.viscous_tolerance, u));
+                   diffusion_solver.solve(component(m), inertia, conductance, defect,
+                                          std::sqrt(scale), numerics.viscous_tolerance));
   }
   // The friction that is applied is the divergence of what the solver arrived at, so momentum
   // closes whatever the solver's tolerance.

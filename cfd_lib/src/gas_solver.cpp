@@ -29,7 +29,7 @@ MomentumExchange make_exchange(const Mesh& mesh) {
 
 GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     : mesh(m), fluid(c.fluid), numerics(c.numerics), halo(m), boundaries(m, c.boundaries),
-      viscous(m, halo, boundaries),
+      diffusion_solver(m, halo),
       pressure_solver(make_pressure_solver(c.numerics.pressure_solver, m, !boundaries.has_outlet(),
                                            c.numerics.pressure_tolerance)),
       eps(make_fields(m, 1)), eps_middle(make_fields(m, 1)), eps_inertia(make_fields(m, 1)),
@@ -43,6 +43,8 @@ GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     system.coefficient.push_back(
         {Field(mesh.local[b].layout), Field(mesh.local[b].layout), Field(mesh.local[b].layout)});
   system.rhs = make_fields(mesh);
+  if (c.energy)
+    energy = std::make_unique<EnergyEquation>(m, halo, boundaries, fluid, *c.energy, numerics);
 }
 
 std::string GasSolver::Impl::cell_name(std::int64_t encoded) const {
@@ -99,6 +101,8 @@ template <class Visit> void GasSolver::Impl::visit_state(Visit&& visit) {
   for (auto& block : flux)
     for (Field& field : block)
       visit(field.data(), field.size());
+  if (energy)
+    energy->visit_state(visit);
 }
 
 GasSolver::GasSolver(const Mesh& mesh, const GasCase& gas_case)
@@ -131,13 +135,17 @@ void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors&
   s.p = make_fields(s.mesh); // that was a potential, not a pressure
   s.set_pressure_gradient(Drive::given);
   s.check_finite();
+  if (s.energy)
+    s.energy->initialise();
 }
 
 StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
-                              const MomentumExchange* exchange) {
+                              const MomentumExchange* exchange, const HeatExchange* heat) {
   Impl& s = *impl_;
   if (!(dt > 0))
     throw ConfigError("gas: time step " + std::to_string(dt) + " s: must be > 0");
+  if (heat && !s.energy)
+    throw ConfigError("gas: heat is exchanged, but the case has no [energy] table");
   StepReport report;
   const double new_time = s.time + dt;
   const double ratio = s.has_history ? dt / s.dt_old : 0;
@@ -145,7 +153,7 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   s.ab_old = -0.5 * ratio;
 
   const Vec3 old_momentum = s.momentum();
-  s.convect();
+  s.convect_momentum();
   for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
     for (std::size_t m = 0; m < 3; ++m)
       for_cells(s.mesh.local[b].layout, [&](std::ptrdiff_t c) {
@@ -161,6 +169,8 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
     s.ab_now = 1;
     s.ab_old = 0;
   }
+  if (s.energy)
+    s.energy->begin(s.eps);
   std::swap(s.eps_rate, s.eps_rate_old);
   s.eps_rate_noise = 1e-13 / dt;
   for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
@@ -172,6 +182,7 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   s.halo.exchange({&s.eps_middle});
   s.boundaries.fill_zero_gradient(s.eps_middle);
   s.set_conductance();
+  s.add_thermal_buoyancy();
 
   Vec3 friction = 0.5 * s.boundary_friction();
   s.predict(dt, exchange, new_time, report);
@@ -179,6 +190,8 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   s.project(new_time, Drive::given, exchange, report);
   s.check_finite();
   s.take_balance(dt, exchange, friction, old_momentum);
+  if (s.energy)
+    s.energy->advance(dt, ratio, s.flux, s.eps, s.eps_middle, heat, s.face_work, s.balance);
 
   s.measure(dt, report);
   s.time = new_time;
@@ -205,6 +218,14 @@ const BlockVectors& GasSolver::pressure_gradient() const {
 }
 const BlockFields& GasSolver::void_fraction() const {
   return impl_->eps;
+}
+const BlockFields* GasSolver::temperature() const {
+  return impl_->energy ? &impl_->energy->temperature() : nullptr;
+}
+void GasSolver::set_temperature(const BlockFields& temperature) {
+  if (!impl_->energy)
+    throw ConfigError("gas: a temperature is set, but the case has no [energy] table");
+  impl_->energy->set_temperature(temperature);
 }
 const Balance& GasSolver::balance() const {
   return impl_->balance;

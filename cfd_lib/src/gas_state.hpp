@@ -7,18 +7,19 @@
 #include <vector>
 
 #include <granflux/cfd/boundary.hpp>
+#include <granflux/cfd/diffusion_solver.hpp>
 #include <granflux/cfd/gas_solver.hpp>
 #include <granflux/cfd/halo.hpp>
 #include <granflux/cfd/pressure_solver.hpp>
 #include <granflux/cfd/sweep.hpp>
-#include <granflux/cfd/viscous_solver.hpp>
+
+#include "convection_sweep.hpp"
+#include "energy.hpp"
 
 // Symbols as in docs/theory.md: eps void fraction, F = eps u.S volume flux through a face, a the
 // implicit inertia rho eps'/dt + beta, r the right-hand side without the pressure, both per volume.
 
 namespace granflux::cfd {
-
-using FaceFields = std::vector<std::array<Field, 3>>; ///< per local block and direction
 
 /// Linear interpolation to the face below position f.
 inline double on_face(const Field& q, const Field& weight, std::ptrdiff_t f,
@@ -36,10 +37,11 @@ struct GasSolver::Impl {
 
   // The step, in order.
   void extrapolate_inertia(double dt);
-  void convect();
-  template <class Scheme> void convect(const Scheme& scheme);
+  void convect_momentum();
+  void add_thermal_buoyancy();
   void set_conductance();
   Vec3 boundary_friction() const;
+  DiffusionSolver::Unknown component(std::size_t m);
   void predict(double dt, const MomentumExchange* exchange, double new_time, StepReport& report);
   void project(double new_time, Drive drive, const MomentumExchange* exchange, StepReport& report);
   void make_solvable();
@@ -73,7 +75,7 @@ struct GasSolver::Impl {
   Numerics numerics;
   Halo halo;
   Boundaries boundaries;
-  ViscousSolver viscous;
+  DiffusionSolver diffusion_solver;
   std::unique_ptr<PressureSolver> pressure_solver;
 
   double time = 0, dt_old = 0;
@@ -101,6 +103,8 @@ struct GasSolver::Impl {
   FaceFields face_work, conductance;
   PressureSystem system;
   Balance balance;
+  Vec3 thermal_buoyancy;                  ///< of this step, this rank [N]
+  std::unique_ptr<EnergyEquation> energy; ///< only where the case asks for it
 };
 
 } // namespace granflux::cfd

@@ -31,7 +31,9 @@ public:
     if (singular_) // rounding has put a part there that no pressure can balance
       size = take_mean_off(residual_);
     if (!std::isfinite(size))
-      throw NumericalError("pressure equation: the right-hand side is not a number");
+      throw NumericalError("pressure equation: the right-hand side is not a number; likely "
+                           "causes: too large a time step (Courant number above 1), or an "
+                           "exchange that is not a number");
     // What the differences in rhs have lost to rounding cannot be solved for.
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     const double enough = std::max(tolerance_ * size, rounding * system.scale);

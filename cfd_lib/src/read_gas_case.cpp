@@ -74,6 +74,50 @@ Fluid read_fluid(const CaseTable& table, const BoxGrid& grid) {
   return fluid;
 }
 
+std::optional<Energy> read_energy(CaseFile& file) {
+  if (!file.has("energy"))
+    return std::nullopt;
+  const CaseTable table = file.table("energy");
+  Energy energy;
+  energy.heat_capacity = table.number("heat_capacity", energy.heat_capacity, positive, "J/(kg K)");
+  energy.conductivity = table.number("conductivity", energy.conductivity, not_negative, "W/(m K)");
+  energy.initial_temperature =
+      table.number("initial_temperature", energy.initial_temperature, positive, "K");
+  energy.expansion = table.number("expansion", 0.0, not_negative, "1/K");
+  if (energy.expansion == 0)
+    table.refuse("reference_temperature", "it needs an expansion > 0");
+  energy.reference_temperature =
+      table.number("reference_temperature", energy.initial_temperature, positive, "K");
+  return energy;
+}
+
+/// Heat at a boundary: an inlet brings its temperature, a wall has one, or a flux, or neither.
+void read_heat(const CaseTable& table, const std::optional<Energy>& energy,
+               BoundaryCondition& condition) {
+  if (!energy) {
+    for (const char* key : {"temperature", "heat_flux"})
+      table.refuse(key, "the case has no [energy] table");
+    return;
+  }
+  const bool wall = condition.kind == BoundaryKind::wall;
+  if (!wall)
+    table.refuse("heat_flux", "only a wall has a heat flux");
+  if (condition.kind == BoundaryKind::slip)
+    table.refuse("temperature", "a slip boundary is adiabatic");
+  if (table.has("heat_flux")) {
+    table.refuse("temperature", "a wall has a temperature or a heat_flux");
+    condition.heat = BoundaryCondition::Heat::flux;
+    condition.heat_flux = table.number("heat_flux", any_number, "W/m2");
+    if (energy->conductivity == 0)
+      table.fail("heat_flux", "left out where [energy] conductivity is 0");
+  } else if (condition.kind == BoundaryKind::inlet || (wall && table.has("temperature"))) {
+    condition.heat = BoundaryCondition::Heat::temperature;
+    condition.temperature = table.number("temperature", positive, "K");
+  } else if (condition.kind == BoundaryKind::outlet) {
+    condition.temperature = table.number("temperature", energy->initial_temperature, positive, "K");
+  }
+}
+
 BoxPatch read_patch(const CaseTable& table) {
   BoxPatch patch;
   patch.name = table.text("name");
@@ -151,6 +195,7 @@ void read_boundaries(CaseFile& file, GasCase& gas_case) {
     if (gas_case.grid.periodic[std::size_t(patch.side.direction)])
       table.fail("side", "a side that [grid] periodic does not connect to the opposite one");
     gas_case.boundaries.push_back(read_condition(table, patch));
+    read_heat(table, gas_case.energy, gas_case.boundaries.back());
     gas_case.grid.patches.push_back(patch);
     outlet = outlet || gas_case.boundaries.back().kind == BoundaryKind::outlet;
   }
@@ -199,6 +244,7 @@ GasCase read_gas_case(CaseFile& file) {
   GasCase gas_case;
   gas_case.grid = read_grid(file.table("grid"));
   gas_case.fluid = read_fluid(file.table("fluid"), gas_case.grid);
+  gas_case.energy = read_energy(file);
   read_boundaries(file, gas_case);
   gas_case.initial_velocity = file.table("initial").vector("velocity", Vec3{}, any_number, "m/s");
   gas_case.numerics = read_numerics(file.table("numerics"));

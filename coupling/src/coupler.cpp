@@ -118,6 +118,9 @@ struct Coupler::Impl {
     if (!(o.smoothing_width >= 0 && std::isfinite(o.smoothing_width)))
       throw ConfigError("coupling: smoothing_width = " + text(o.smoothing_width) +
                         " must be a number of particle diameters, 0 or more");
+    if (c.energy)
+      throw ConfigError("[energy]: heat is not exchanged with particles; a case with particles "
+                        "cannot have this table");
     for (cfd::BlockFields& field : work)
       field = cfd::make_fields(mesh);
   }

@@ -69,7 +69,10 @@ def draw_pressure_drop(results):
     late = time > 0.25 * time[-1]
     axis.set_xlabel("time, s")
     axis.set_ylabel("Pa")
-    axis.set_title(f"mean of the last three quarters: {drop[late].mean():.1f} Pa")
+    if time[-1] > 1:
+        axis.set_title(f"mean of the last three quarters: {drop[late].mean():.1f} Pa")
+    else:
+        axis.set_title("the start only; a mean needs some seconds")
     axis.legend()
     figure.savefig(results / "plot.png", dpi=110)
 

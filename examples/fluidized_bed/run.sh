@@ -19,7 +19,10 @@ while [[ $# -gt 0 ]]; do
     --velocity) velocity=${2:?--velocity needs m/s} && shift ;;
     --ranks) ranks=${2:?--ranks needs a number} && shift ;;
     --validate) validate=yes time=10 velocity=0.6 ;;
-    -h | --help) sed -n '4,10s/^# //p' "${BASH_SOURCE[0]}" && exit 0 ;;
+    -h | --help)
+      sed -n '4,10s/^# //p' run.sh
+      exit 0
+      ;;
     *) echo "run.sh: unknown option $1; see --help" >&2 && exit 1 ;;
   esac
   shift

@@ -147,6 +147,24 @@ void FixCouple::init() {
   guard([&] { check_script(*lmp); });
 }
 
+/// What the run is made of, so that a wrong unit shows before it starts.
+std::string FixCouple::summary() const {
+  const cfd::Fluid& fluid = gas_case_.fluid;
+  const cfd::Index3 cells = coupler_->mesh().lattice->cells();
+  std::string text = fmt::format("granflux: gas of {:g} kg/m3 and {:g} Pa s on {} x {} x {} cells; "
+                                 "gravity {:g} {:g} {:g} m/s2; "
+                                 "drag {}, void fraction {}, model {}\n",
+                                 fluid.density, fluid.viscosity, cells[0], cells[1], cells[2],
+                                 fluid.gravity.x, fluid.gravity.y, fluid.gravity.z,
+                                 coupling_options_.drag, coupling_options_.void_fraction,
+                                 coupling_options_.model == coupling::MomentumModel::a ? "a" : "b");
+  for (const cfd::BoundaryCondition& boundary : gas_case_.boundaries)
+    if (boundary.kind == cfd::BoundaryKind::inlet)
+      text += fmt::format("granflux: inlet {}: {:g} {:g} {:g} m/s\n", boundary.name,
+                          boundary.velocity.x, boundary.velocity.y, boundary.velocity.z);
+  return text;
+}
+
 /// Errors in grid and boundaries show here only: they are those of the case file.
 std::unique_ptr<coupling::Coupler> FixCouple::make_coupler() const {
   try {
@@ -176,6 +194,7 @@ void FixCouple::begin() {
     fields_ = std::make_unique<cfd::CgnsWriter>(coupler->mesh(), gas_case_.output.fields,
                                                 restored_ ? restored_->fields_written : 0);
   coupler_ = std::move(coupler);
+  say(summary());
   if (!restored_)
     write_fields();
   restored_.reset();

@@ -50,6 +50,7 @@ private:
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool& own);
   void begin();
   std::unique_ptr<coupling::Coupler> make_coupler() const;
+  std::string summary() const;
   void start_run();
   void start_timers();
   void exchange();

@@ -79,10 +79,12 @@ void check_box(LAMMPS_NS::LAMMPS& lammps, const cfd::BoxGrid& grid, double toler
             box_periodic ? "periodic: round-off" : "one particle diameter; 'box any' allows more"));
     };
     const double round_off = 1e-10 * (gas_hi - gas_lo);
+    // A box that is still empty has no diameter to go by.
+    const double allowed_here = box_periodic ? round_off : std::max(tolerance, round_off);
     if (box_periodic || box.boundary[d][0] < shrink_wrapped)
-      compare("low", gas_lo, box.boxlo[d], box_periodic ? round_off : tolerance);
+      compare("low", gas_lo, box.boxlo[d], allowed_here);
     if (box_periodic || box.boundary[d][1] < shrink_wrapped)
-      compare("high", gas_hi, box.boxhi[d], box_periodic ? round_off : tolerance);
+      compare("high", gas_hi, box.boxhi[d], allowed_here);
   }
 }
 

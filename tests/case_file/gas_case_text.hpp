@@ -24,6 +24,13 @@ viscosity = 1.8e-5
 gravity = [0.0, 0.0, -9.81]
 driving_pressure_gradient = [0.0, -1.5, 0.0]
 
+[energy]
+heat_capacity = 1000.0
+conductivity = 0.03
+initial_temperature = 310.0
+expansion = 3e-3
+reference_temperature = 300.0
+
 [[boundary]]
 name = "bottom"
 side = "z_low"
@@ -32,6 +39,7 @@ velocity = [0.0, 0.0, 0.9]
 profile = "parabolic"
 ramp_time = 0.1
 ramp_from = 0.01
+temperature = 320.0
 
 [[boundary]]
 name = "top"
@@ -44,6 +52,7 @@ name = "left"
 side = "x_low"
 type = "wall"
 velocity = [0.0, 0.0, 0.1]
+heat_flux = 25.0
 
 [[boundary]]
 name = "right"

@@ -55,6 +55,19 @@ const std::vector<Mistake> mistakes{
      "bed.toml: [fluid] density = nan: must be a number > 0 (kg/m3)"},
     {"density = 1.2", "density = \"air\"",
      "bed.toml: [fluid] density = \"air\": must be a number > 0 (kg/m3)"},
+    {"heat_capacity = 1000.0", "heat_capacity = 0",
+     "bed.toml: [energy] heat_capacity = 0: must be a number > 0 (J/(kg K))"},
+    {"expansion = 3e-3\n", "",
+     "bed.toml: [energy] reference_temperature = 300: not allowed: it needs an expansion > 0"},
+    {"heat_flux = 25.0", "heat_flux = 25.0\ntemperature = 300",
+     "bed.toml: [[boundary]] 3 \"left\" temperature = 300: not allowed: a wall has a temperature "
+     "or "
+     "a "
+     "heat_flux"},
+    {"pressure = 5.0", "pressure = 5.0\nheat_flux = 1",
+     "bed.toml: [[boundary]] 2 \"top\" heat_flux = 1: not allowed: only a wall has a heat flux"},
+    {"temperature = 320.0\n", "",
+     "bed.toml: [[boundary]] 1 \"bottom\" temperature is missing: must be a number > 0 (K)"},
     {"density = 1.2\n", "", "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3)"},
     {"density = 1.2", "densty = 1.2",
      "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3)"},
@@ -124,7 +137,7 @@ const std::vector<Mistake> mistakes{
      "bed.toml: [output] every = 0.01: not allowed: it needs fields, the path of the files to "
      "write"},
     {"[initial]", "[initail]",
-     "bed.toml: [initail] (line 41): unknown table; did you mean initial?"},
+     "bed.toml: [initail] (line 50): unknown table; did you mean initial?"},
     {"[fluid]", "[fluid", "bed.toml: line 9, column "},
 };
 

@@ -26,6 +26,13 @@ TEST(ReadGasCase, TakesEveryKey) {
   EXPECT_EQ(c.fluid.gravity, (Vec3{0, 0, -9.81}));
   EXPECT_EQ(c.fluid.driving_pressure_gradient, (Vec3{0, -1.5, 0}));
 
+  ASSERT_TRUE(c.energy);
+  EXPECT_EQ(c.energy->heat_capacity, 1000);
+  EXPECT_EQ(c.energy->conductivity, 0.03);
+  EXPECT_EQ(c.energy->initial_temperature, 310);
+  EXPECT_EQ(c.energy->expansion, 3e-3);
+  EXPECT_EQ(c.energy->reference_temperature, 300);
+
   ASSERT_EQ(c.boundaries.size(), 4u);
   ASSERT_EQ(c.grid.patches.size(), 4u);
   EXPECT_EQ(c.grid.patches[0].name, "bottom");
@@ -41,6 +48,12 @@ TEST(ReadGasCase, TakesEveryKey) {
   EXPECT_EQ(inlet.ramp_time, 0.1);
   EXPECT_EQ(inlet.ramp_from, 0.01);
   EXPECT_EQ(c.boundaries[1].kind, BoundaryKind::outlet);
+  EXPECT_EQ(inlet.heat, BoundaryCondition::Heat::temperature);
+  EXPECT_EQ(inlet.temperature, 320);
+  EXPECT_EQ(c.boundaries[1].temperature, 310);
+  EXPECT_EQ(c.boundaries[2].heat, BoundaryCondition::Heat::flux);
+  EXPECT_EQ(c.boundaries[2].heat_flux, 25);
+  EXPECT_EQ(c.boundaries[3].heat, BoundaryCondition::Heat::adiabatic);
   EXPECT_EQ(c.boundaries[1].pressure, 5.0);
   EXPECT_EQ(c.boundaries[2].kind, BoundaryKind::wall);
   EXPECT_EQ(c.boundaries[2].velocity, (Vec3{0, 0, 0.1}));
@@ -66,6 +79,7 @@ TEST(ReadGasCase, LeavesDefaultsWhereKeysAreAbsent) {
   EXPECT_EQ(c.grid.blocks, (Index3{0, 0, 0}));
   EXPECT_FALSE(c.fluid.gravity_given);
   EXPECT_TRUE(c.boundaries.empty());
+  EXPECT_FALSE(c.energy);
   EXPECT_EQ(c.numerics.convection, defaults.numerics.convection);
   EXPECT_EQ(c.numerics.pressure_solver, PressureMethod::automatic);
   EXPECT_EQ(c.numerics.pressure_tolerance, defaults.numerics.pressure_tolerance);

@@ -45,6 +45,25 @@ TEST(Boundaries, ParabolicInletHasItsMeanAndItsShape) {
   EXPECT_NEAR(gas.boundary_flux("z_high"), 2 * 0.4 * 0.5, 1e-12);
 }
 
+TEST(Boundaries, ParabolicInletIsFlatBetweenSlipSides) {
+  GasCase c = box_case({8, 3, 4}, {0.4, 0.5, 1}, {false, false, false});
+  boundary(c, "z_low").kind = BoundaryKind::inlet;
+  boundary(c, "z_low").velocity = {0, 0, 2};
+  boundary(c, "z_low").profile = BoundaryCondition::Profile::parabolic;
+  boundary(c, "z_high").kind = BoundaryKind::outlet;
+  boundary(c, "y_low").kind = boundary(c, "y_high").kind = BoundaryKind::slip;
+  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Boundaries boundaries(mesh, c.boundaries);
+  for (const BoundaryPatch& patch : boundaries.patches())
+    if (boundaries.condition(patch).name == "z_low")
+      for (const BoundaryFace& face : patch.faces) {
+        const Block& block = mesh.local[std::size_t(patch.block)];
+        const double a = block.node[0][face.cell] / 0.4, b = a + 0.125;
+        const double mean = (3 * (b * b - a * a) - 2 * (b * b * b - a * a * a)) / 0.125;
+        EXPECT_NEAR(boundaries.velocity(patch, face, 0).z, 2 * mean, 1e-13); // of x only
+      }
+}
+
 TEST(Boundaries, InletVelocityGrowsOverItsRamp) {
   GasCase c = duct(0.4);
   boundary(c, "z_low").ramp_time = 0.2;

@@ -31,7 +31,7 @@ std::string complaint(const std::string& lines) {
 TEST(ReadCoupling, DefaultsHoldForAnEmptyTable) {
   const auto options = read("");
   EXPECT_EQ(options.drag, "gidaspow");
-  EXPECT_EQ(options.void_fraction, "smoothed");
+  EXPECT_EQ(options.void_fraction, "trilinear");
   EXPECT_EQ(options.smoothing_width, 3);
   EXPECT_EQ(options.model, coupling::MomentumModel::a);
   EXPECT_EQ(options.void_fraction_floor, 0.05);

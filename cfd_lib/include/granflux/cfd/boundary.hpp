@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <granflux/cfd/gas_case.hpp>
@@ -52,6 +53,11 @@ public:
   /// Ghosts of the pressure: outlet value (0 if not `with_given`), else continued from inside,
   /// linearly but for the part of the gradient that balances drag, which may jump between cells.
   void fill_pressure(BlockFields& pressure, const BlockVectors& drag_slope, bool with_given) const;
+  /// Ghosts of the temperature. `conductance`: k eps_f |S|^2/(S.dx) on low faces [W/K].
+  void fill_temperature(BlockFields& temperature,
+                        const std::vector<std::array<Field, 3>>& conductance) const;
+  /// Ghosts of a correction to the temperature, for homogeneous conditions.
+  void fill_temperature_correction(BlockFields& correction) const;
   /// Ghosts equal to their cells.
   void fill_zero_gradient(BlockFields& field) const;
 

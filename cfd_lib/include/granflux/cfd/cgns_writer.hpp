@@ -30,8 +30,9 @@ public:
   /// folder does not exist or is not writable. Collective.
   CgnsWriter(const Mesh& mesh, std::string path, long first = 0);
 
-  /// Velocity [m/s], Pressure (dynamic, Pa), VoidFraction, and what else is given. Returns the
-  /// file's name. Collective; throws NumericalError on all ranks where the file cannot be written.
+  /// Velocity [m/s], Pressure (dynamic, Pa), VoidFraction, Temperature [K] where it is solved for,
+  /// and what else is given. Returns the file's name. Collective; throws NumericalError on all
+  /// ranks where the file cannot be written.
   std::string write(const GasSolver& solver, const std::vector<NamedField>& extra = {});
   /// The same for any fields at a time [s].
   std::string write(double time, const std::vector<NamedVector>& vectors,

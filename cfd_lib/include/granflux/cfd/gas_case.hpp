@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +22,16 @@ struct Fluid {
   Vec3 driving_pressure_gradient{}; ///< imposed mean of grad p [Pa/m], for periodic directions
 };
 
+/// Temperature of the gas, with constant properties.
+struct Energy {
+  double heat_capacity = 1006;         ///< cp, J/(kg K)
+  double conductivity = 0.026;         ///< k, W/(m K)
+  double initial_temperature = 293.15; ///< K
+  /// Boussinesq: density falls by this share a kelvin in the weight only [1/K]; 0: no buoyancy.
+  double expansion = 0;
+  double reference_temperature = 293.15; ///< at which the gas has Fluid::density [K]
+};
+
 enum class BoundaryKind { inlet, outlet, wall, slip };
 
 struct BoundaryCondition {
@@ -34,6 +44,10 @@ struct BoundaryCondition {
   double ramp_time = 0; ///< s; the inlet velocity grows linearly from ramp_from * velocity
   double ramp_from = 0; ///< share of the velocity at time 0
   double pressure = 0;  ///< outlet: dynamic pressure at the face [Pa]
+  enum class Heat { adiabatic, temperature, flux } heat = Heat::adiabatic;
+  /// Inlet, or wall of given temperature; outlet: of gas that flows back [K].
+  double temperature = 293.15;
+  double heat_flux = 0; ///< wall: into the gas, per area of the wall [W/m2]
 };
 
 enum class ConvectionScheme { central, upwind2, limited };
@@ -56,6 +70,7 @@ struct Output {
 struct GasCase {
   BoxGrid grid;
   Fluid fluid;
+  std::optional<Energy> energy; ///< not set: no temperature is solved for
   std::vector<BoundaryCondition> boundaries;
   Numerics numerics;
   Output output;

@@ -24,6 +24,13 @@ struct MomentumExchange {
 };
 MomentumExchange make_exchange(const Mesh& mesh);
 
+/// Heat that a second phase gives to the gas over one step, per unit of volume, on interior cells:
+/// source - coefficient * T [W/m3], with T at the end of the step (implicit).
+struct HeatExchange {
+  BlockFields coefficient; ///< >= 0 [W/(m3 K)]
+  BlockFields source;      ///< [W/m3]
+};
+
 /// Integrals over all blocks and all ranks of the terms of the last step; equal on every rank.
 struct Balance {
   double gas_volume_change = 0;        ///< d(sum eps V)/dt [m3/s]
@@ -33,10 +40,16 @@ struct Balance {
   Vec3 convection, friction, pressure; ///< through the boundaries, into the gas [N]
   Vec3 driving;                        ///< of the driving pressure gradient [N]
   Vec3 exchange;                       ///< from the second phase [N]
-  /// momentum_change - convection - friction - pressure - driving - exchange [N]
+  /// momentum_change - convection - friction - pressure - driving - exchange - thermal_buoyancy [N]
   Vec3 momentum_residual;
   /// sum of the magnitudes of the terms above: what the residual is to be measured by [N]
   double momentum_scale = 0;
+  Vec3 thermal_buoyancy; ///< Boussinesq force [N]
+  // Energy, where it is solved [W]: rate of change of sum rho cp eps T V; through the boundaries by
+  // flow and by conduction, and from the second phase, all into the gas; what is left of it.
+  double heat_change = 0, heat_convection = 0, heat_conduction = 0, heat_exchange = 0;
+  double heat_residual = 0;
+  double heat_scale = 0; ///< sum of the magnitudes of the terms, and of rho cp eps T V / dt
 };
 
 struct StepReport {
@@ -51,8 +64,9 @@ struct StepReport {
   bool history_restarted = false;
 };
 
-/// Volume-averaged incompressible Navier-Stokes on a multi-block mesh: collocated finite volumes,
-/// fractional step, Adams-Bashforth convection, Crank-Nicolson diffusion (docs/theory.md).
+/// Volume-averaged incompressible Navier-Stokes, and the energy equation where asked for, on a
+/// multi-block mesh: collocated finite volumes, fractional step, Adams-Bashforth convection,
+/// Crank-Nicolson diffusion (docs/theory.md).
 class GasSolver {
 public:
   /// Throws ConfigError where a boundary of the mesh has no condition or a condition no boundary.
@@ -68,7 +82,8 @@ public:
 
   /// One step of dt. `void_fraction` is that at the end of the step; `exchange` may be null for a
   /// gas alone. Collective. Throws NumericalError.
-  StepReport advance(double dt, const BlockFields& void_fraction, const MomentumExchange* exchange);
+  StepReport advance(double dt, const BlockFields& void_fraction, const MomentumExchange* exchange,
+                     const HeatExchange* heat = nullptr);
 
   [[nodiscard]] double time() const; ///< s
   [[nodiscard]] long steps() const;
@@ -76,6 +91,11 @@ public:
   [[nodiscard]] const BlockFields& pressure() const;  ///< dynamic [Pa], ghosts filled
   [[nodiscard]] const BlockVectors& pressure_gradient() const; ///< driving part included [Pa/m]
   [[nodiscard]] const BlockFields& void_fraction() const;      ///< at the end of the last step
+  /// At the end of the last step [K]; null where the case has no energy equation.
+  [[nodiscard]] const BlockFields* temperature() const;
+  /// Sets it on interior cells, instead of the case's initial value, after initialise().
+  /// Collective.
+  void set_temperature(const BlockFields& temperature);
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const Mesh& mesh() const;
   [[nodiscard]] const Fluid& fluid() const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <granflux/cfd/viscous_solver.hpp>
+#include <granflux/cfd/diffusion_solver.hpp>
 
 #include <cmath>
 #include <string>
@@ -21,12 +21,13 @@ void diffusion(const Layout& layout, const std::array<Field, 3>& conductance, co
   });
 }
 
-ViscousSolver::ViscousSolver(const Mesh& mesh, const Halo& halo, const Boundaries& boundaries)
-    : mesh_(mesh), halo_(halo), boundaries_(boundaries), direction_(make_fields(mesh)),
-      image_(make_fields(mesh)), diagonal_(make_fields(mesh)) {}
+DiffusionSolver::DiffusionSolver(const Mesh& mesh, const Halo& halo)
+    : mesh_(mesh), halo_(halo), direction_(make_fields(mesh)), image_(make_fields(mesh)),
+      diagonal_(make_fields(mesh)) {}
 
-int ViscousSolver::solve(int m, const BlockFields& inertia, const FaceConductance& conductance,
-                         BlockFields& defect, double scale, double tolerance, BlockVectors& u) {
+int DiffusionSolver::solve(const Unknown& unknown, const BlockFields& inertia,
+                           const FaceConductance& conductance, BlockFields& defect, double scale,
+                           double tolerance) {
   constexpr int most_iterations = 1000;
   const auto sum = [&](auto&& term) {
     double total = 0;
@@ -55,7 +56,7 @@ int ViscousSolver::solve(int m, const BlockFields& inertia, const FaceConductanc
   double rz = sum([&](std::size_t b, std::ptrdiff_t c) { return defect[b][c] * direction_[b][c]; });
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
     halo_.exchange({&direction_});
-    boundaries_.fill_velocity_correction(direction_, m);
+    unknown.fill_ghosts(direction_);
     for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
       diffusion(mesh_.local[b].layout, conductance[b], direction_[b], image_[b]);
       for_cells(mesh_.local[b].layout, [&](std::ptrdiff_t c) {
@@ -65,11 +66,13 @@ int ViscousSolver::solve(int m, const BlockFields& inertia, const FaceConductanc
     const double curvature =
         sum([&](std::size_t b, std::ptrdiff_t c) { return direction_[b][c] * image_[b][c]; });
     const double step = rz / curvature;
-    for (std::size_t b = 0; b < mesh_.local.size(); ++b)
+    for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
+      Field& q = unknown.at(b);
       for_cells(mesh_.local[b].layout, [&](std::ptrdiff_t c) {
-        u[b][std::size_t(m)][c] += step * direction_[b][c];
+        q[c] += step * direction_[b][c];
         defect[b][c] -= step * image_[b][c];
       });
+    }
     size = std::sqrt(
         sum([&](std::size_t b, std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; }));
     if (size <= enough)
@@ -84,8 +87,7 @@ int ViscousSolver::solve(int m, const BlockFields& inertia, const FaceConductanc
         direction_[b][c] = defect[b][c] / diagonal_[b][c] + keep * direction_[b][c];
       });
   }
-  throw NumericalError("momentum equation: component " + std::string(1, "xyz"[m]) +
-                       " did not converge in " + std::to_string(most_iterations) +
+  throw NumericalError(unknown.name + " did not converge in " + std::to_string(most_iterations) +
                        " iterations: defect " + std::to_string(size / scale) + " of its scale, " +
                        std::to_string(tolerance) + " wanted; use a smaller time step");
 }

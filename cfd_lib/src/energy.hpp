@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <granflux/cfd/boundary.hpp>
+#include <granflux/cfd/diffusion_solver.hpp>
+#include <granflux/cfd/gas_solver.hpp>
+#include <granflux/cfd/halo.hpp>
+
+#include "convection_sweep.hpp"
+
+namespace granflux::cfd {
+
+/// rho cp [ d(eps T)/dt + div(eps u T) ] = div(eps k grad T) + Q on the fluxes of a gas step, which
+/// satisfy continuity with the same void fractions: a uniform temperature stays uniform. T lives,
+/// like eps, at the ends of steps; convection takes it extrapolated to the middle, where the
+/// fluxes are; Crank-Nicolson for conduction; the second phase's coefficient implicit.
+class EnergyEquation {
+public:
+  EnergyEquation(const Mesh& mesh, const Halo& halo, const Boundaries& boundaries,
+                 const Fluid& fluid, const Energy& energy, const Numerics& numerics);
+
+  void initialise();
+  void set_temperature(const BlockFields& temperature);
+  [[nodiscard]] const BlockFields& temperature() const { return temperature_; }
+  [[nodiscard]] const Energy& properties() const { return energy_; }
+
+  /// Void fraction of the step's start; call before it changes.
+  void begin(const BlockFields& eps) { eps_ = eps; }
+  /// `ratio`: this time step over the last one, 0 in a first step. Fills the energy terms of
+  /// `balance`. Collective.
+  void advance(double dt, double ratio, const FaceFields& flux, const BlockFields& eps,
+               const BlockFields& eps_middle, const HeatExchange* exchange, FaceFields& work,
+               Balance& balance);
+
+  template <class Visit> void visit_state(Visit&& visit) {
+    for (BlockFields* fields : {&temperature_, &temperature_old_})
+      for (Field& field : *fields)
+        visit(field.data(), field.size());
+  }
+
+private:
+  void fill_ghosts(BlockFields& temperature) const;
+  void set_conductance(const BlockFields& eps_middle);
+  [[nodiscard]] double boundary_conduction(const BlockFields& temperature) const;
+  template <class Term> [[nodiscard]] double sum(Term&& term) const;
+
+  const Mesh& mesh_;
+  const Halo& halo_;
+  const Boundaries& boundaries_;
+  Energy energy_;
+  Numerics numerics_;
+  double capacity_; ///< rho cp [J/(m3 K)]
+  double ambient_;  ///< of gas that flows back [K]
+  DiffusionSolver solver_;
+  BlockFields temperature_, temperature_old_, middle_; ///< K
+  BlockFields eps_, inertia_, rhs_, defect_, flow_, spread_;
+  FaceConductance conductance_;
+};
+
+} // namespace granflux::cfd
