@@ -17,9 +17,9 @@ enum class MomentumModel { a, b };
 
 /// The [coupling] table of the case file.
 struct CouplingOptions {
-  std::string drag = "gidaspow";          ///< a name of DragLaws
+  std::string drag = "gidaspow";           ///< a name of DragLaws
   std::string void_fraction = "trilinear"; ///< a name of the void-fraction kernels
-  double smoothing_width = 3;             ///< of the smoothed kernel, in particle diameters
+  double smoothing_width = 3;              ///< of the smoothed kernel, in particle diameters
   MomentumModel model = MomentumModel::a;
   /// A cell below this void fraction stops the run; nothing is clamped.
   double void_fraction_floor = 0.05;
