@@ -61,7 +61,7 @@ DiffusionSolver::Unknown GasSolver::Impl::component(std::size_t m) {
 }
 
 /// Momentum without the new pressure: leaves a and r, with which the new velocity will be
-/// (r - share grad p) / a, and the mean viscous force in `friction`.
+/// (r - share grad p) / a.
 void GasSolver::Impl::predict(double dt, const MomentumExchange* exchange, double new_time,
                               StepReport& report) {
   const double rho_dt = fluid.density / dt;

@@ -95,11 +95,12 @@ struct GasSolver::Impl {
   FaceFields flux;                         ///< F [m3/s], along +direction
   BlockVectors convection, convection_old; ///< momentum leaving each cell [N]
   Vec3 outflow, outflow_old;               ///< of it, through the boundaries [N]
-  BlockVectors friction;                   ///< viscous force on each cell, Crank-Nicolson mean [N]
+  BlockVectors friction;                   ///< viscous force on each cell for the old velocity [N]
   BlockFields a;                           ///< kg/(m3 s)
   BlockVectors r;                          ///< N/m3
   BlockFields share;                       ///< of the pressure gradient that the gas bears
-  BlockFields inertia, defect, spread;
+  BlockFields inertia, defect;
+  BlockFields spread; ///< viscous force on each cell, one component of the new velocity [N]
   FaceFields face_work, conductance;
   PressureSystem system;
   Balance balance;
