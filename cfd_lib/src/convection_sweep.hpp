@@ -17,7 +17,8 @@ struct Carried {
   std::function<const Field&(std::size_t)> at; ///< with both layers of ghosts
   std::function<Field&(std::size_t)> out;      ///< what leaves each cell: factor sum(F q_f)
   double factor = 1;                           ///< density, or heat capacity per volume
-  double backflow = 0;                         ///< value that gas brings back through an outlet
+  /// Value that gas brings back through an outlet.
+  std::function<double(const BoundaryCondition&)> backflow;
 };
 
 /// One sweep over all local blocks; returns what leaves through this rank's boundaries.
@@ -41,13 +42,14 @@ double convect(const Scheme& scheme, const Mesh& mesh, const Boundaries& boundar
   double outflow = 0;
   for (const BoundaryPatch& patch : boundaries.patches()) {
     const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
-    const bool outlet = boundaries.condition(patch).kind == BoundaryKind::outlet;
+    const BoundaryCondition& condition = boundaries.condition(patch);
+    const bool outlet = condition.kind == BoundaryKind::outlet;
     const Field& q = carried.at(b);
     for (const BoundaryFace& face : patch.faces) {
       const double f = flux[b][d][face.face];
       double value = 0.5 * (q[face.cell] + q[face.ghost]);
       if (outlet && f * patch.outward < 0)
-        value = carried.backflow;
+        value = carried.backflow(condition);
       work[b][d][face.face] = carried.factor * f * value;
       outflow += patch.outward * work[b][d][face.face];
     }

@@ -8,23 +8,10 @@
 
 namespace granflux::cfd {
 
-namespace {
-
-/// Temperature of gas that flows back through an outlet: that of the first one.
-double ambient_temperature(const Boundaries& boundaries, const Energy& energy) {
-  for (const BoundaryCondition& condition : boundaries.conditions())
-    if (condition.kind == BoundaryKind::outlet)
-      return condition.temperature;
-  return energy.initial_temperature;
-}
-
-} // namespace
-
 EnergyEquation::EnergyEquation(const Mesh& mesh, const Halo& halo, const Boundaries& boundaries,
                                const Fluid& fluid, const Energy& energy, const Numerics& numerics)
     : mesh_(mesh), halo_(halo), boundaries_(boundaries), energy_(energy), numerics_(numerics),
-      capacity_(fluid.density * energy.heat_capacity),
-      ambient_(ambient_temperature(boundaries, energy)), solver_(mesh, halo),
+      capacity_(fluid.density * energy.heat_capacity), solver_(mesh, halo),
       temperature_(make_fields(mesh)), temperature_old_(make_fields(mesh)),
       middle_(make_fields(mesh)), eps_(make_fields(mesh)), inertia_(make_fields(mesh)),
       rhs_(make_fields(mesh)), defect_(make_fields(mesh)), flow_(make_fields(mesh)),
@@ -95,8 +82,10 @@ void EnergyEquation::advance(double dt, double ratio, const FaceFields& flux,
           temperature_[b][c] + 0.5 * ratio * (temperature_[b][c] - temperature_old_[b][c]);
     });
   fill_ghosts(middle_);
-  const Carried carried{[&](std::size_t b) -> const Field& { return middle_[b]; },
-                        [&](std::size_t b) -> Field& { return flow_[b]; }, capacity_, ambient_};
+  const Carried carried{.at = [&](std::size_t b) -> const Field& { return middle_[b]; },
+                        .out = [&](std::size_t b) -> Field& { return flow_[b]; },
+                        .factor = capacity_,
+                        .backflow = [](const BoundaryCondition& c) { return c.temperature; }};
   const double outflow = convect(numerics_.convection, mesh_, boundaries_, flux, carried, work);
 
   double conducted = 0.5 * boundary_conduction(temperature_);

@@ -51,7 +51,6 @@ private:
   Energy energy_;
   Numerics numerics_;
   double capacity_; ///< rho cp [J/(m3 K)]
-  double ambient_;  ///< of gas that flows back [K]
   DiffusionSolver solver_;
   BlockFields temperature_, temperature_old_, middle_; ///< K
   BlockFields eps_, inertia_, rhs_, defect_, flow_, spread_;

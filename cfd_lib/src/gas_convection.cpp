@@ -17,9 +17,11 @@ void GasSolver::Impl::convect_momentum() {
   std::swap(convection, convection_old);
   outflow_old = outflow;
   for (std::size_t m = 0; m < 3; ++m) {
-    const Carried carried{[&](std::size_t b) -> const Field& { return u[b][m]; },
-                          [&](std::size_t b) -> Field& { return convection[b][m]; }, fluid.density,
-                          0}; // gas outside an outlet is at rest
+    const Carried carried{
+        .at = [&](std::size_t b) -> const Field& { return u[b][m]; },
+        .out = [&](std::size_t b) -> Field& { return convection[b][m]; },
+        .factor = fluid.density,
+        .backflow = [](const BoundaryCondition&) { return 0.0; }}; // gas outside is at rest
     outflow[int(m)] = convect(numerics.convection, mesh, boundaries, flux, carried, face_work);
   }
 }
