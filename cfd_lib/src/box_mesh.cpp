@@ -116,26 +116,6 @@ void check_patches(const BoxGrid& grid, const std::vector<IndexBox>& boxes, cons
                           "direction periodic");
 }
 
-/// Node coordinate i of a whole direction, continued into ghosts: repeated where periodic,
-/// mirrored at a boundary so that the boundary lies half way to the ghost's centre.
-double extended(const std::vector<double>& nodes, bool periodic, int i) {
-  const int n = int(nodes.size()) - 1;
-  double shift = 0;
-  const double length = nodes.back() - nodes.front();
-  if (periodic) {
-    while (i < 0)
-      i += n, shift -= length;
-    while (i > n)
-      i -= n, shift += length;
-    return nodes[u(i)] + shift;
-  }
-  if (i < 0) // short directions are mirrored again
-    return 2 * nodes.front() - extended(nodes, false, -i);
-  if (i > n)
-    return 2 * nodes.back() - extended(nodes, false, 2 * n - i);
-  return nodes[u(i)];
-}
-
 } // namespace
 
 std::vector<double> uniform_nodes(double origin, double length, int n) {
@@ -145,22 +125,19 @@ std::vector<double> uniform_nodes(double origin, double length, int n) {
   return nodes;
 }
 
-Mesh make_box_mesh(const BoxGrid& grid, MPI_Comm comm) {
-  Mesh mesh;
-  mesh.comm = comm;
-  int ranks = 1, rank = 0;
+Mesh make_box_mesh(const BoxGrid& box, MPI_Comm comm) {
+  int ranks = 1;
   MPI_Comm_size(comm, &ranks);
-  MPI_Comm_rank(comm, &rank);
 
-  Lattice lattice{grid.nodes, grid.periodic, {}};
+  Lattice lattice{box.nodes, box.periodic, {}};
   for (int d = 0; d < 3; ++d) {
-    const auto& nodes = grid.nodes[u(d)];
+    const auto& nodes = box.nodes[u(d)];
     if (nodes.size() < 2 || !std::is_sorted(nodes.begin(), nodes.end(), std::less_equal<>()))
       throw ConfigError(std::string("[grid]: node coordinates along ") + "xyz"[d] +
                         " must be at least two and increase strictly");
   }
   const Index3 cells = lattice.cells();
-  Index3 blocks = grid.blocks;
+  Index3 blocks = box.blocks;
   if (blocks[0] <= 0)
     blocks = choose_blocks(cells, ranks);
   for (int d = 0; d < 3; ++d) {
@@ -177,70 +154,63 @@ Mesh make_box_mesh(const BoxGrid& grid, MPI_Comm comm) {
     throw ConfigError("[grid] blocks: " + std::to_string(count) + " blocks for " +
                       std::to_string(ranks) + " ranks: every rank needs at least one block");
 
-  std::vector<IndexBox> boxes;
-  for (const BoxPatch& patch : grid.patches) {
-    boxes.push_back(covered(grid, patch, cells));
-    if (std::find(mesh.boundaries.begin(), mesh.boundaries.end(), patch.name) !=
-        mesh.boundaries.end())
+  Grid grid;
+  std::vector<IndexBox> covers;
+  for (const BoxPatch& patch : box.patches) {
+    covers.push_back(covered(box, patch, cells));
+    if (std::find(grid.boundaries.begin(), grid.boundaries.end(), patch.name) !=
+        grid.boundaries.end())
       throw ConfigError("boundary \"" + patch.name + "\" is given twice: names must differ");
-    mesh.boundaries.push_back(patch.name);
+    grid.boundaries.push_back(patch.name);
   }
-  check_patches(grid, boxes, cells);
+  check_patches(box, covers, cells);
 
-  std::int64_t dealt = 0;
-  const std::int64_t total = std::int64_t(cells[0]) * cells[1] * cells[2];
   for (int id = 0; id < count; ++id) {
     const Index3 slab{id % blocks[0], id / blocks[0] % blocks[1], id / (blocks[0] * blocks[1])};
     IndexBox mine;
-    BlockInfo info;
+    GridBlock block;
     for (int d = 0; d < 3; ++d) {
       mine.lo[u(d)] = lattice.starts[u(d)][u(slab[u(d)])];
       mine.hi[u(d)] = lattice.starts[u(d)][u(slab[u(d)] + 1)];
-      info.cells[u(d)] = mine.hi[u(d)] - mine.lo[u(d)];
+      block.cells[u(d)] = mine.hi[u(d)] - mine.lo[u(d)];
     }
-    // By cost in block order, yet never so that a later rank is left without a block.
-    const std::int64_t size = faces(mine);
-    info.rank = std::max(int((dealt + size / 2) * ranks / total), ranks - (count - id));
-    info.rank = std::min({info.rank, ranks - 1, id == 0 ? 0 : mesh.blocks.back().rank + 1});
-    dealt += size;
-
+    block.node = [nodes = box.nodes, lo = mine.lo](int i, int j, int k) {
+      return Vec3{nodes[0][u(lo[0] + i)], nodes[1][u(lo[1] + j)], nodes[2][u(lo[2] + k)]};
+    };
     for (int d = 0; d < 3; ++d)
       for (const bool high : {false, true}) {
-        IndexBox layer{{0, 0, 0}, info.cells};
-        layer.lo[u(d)] = high ? info.cells[u(d)] - 1 : 0;
+        IndexBox layer{{0, 0, 0}, block.cells};
+        layer.lo[u(d)] = high ? block.cells[u(d)] - 1 : 0;
         layer.hi[u(d)] = layer.lo[u(d)] + 1;
         const int beyond = slab[u(d)] + (high ? 1 : -1);
         const bool inside = beyond >= 0 && beyond < blocks[u(d)];
-        if (inside || grid.periodic[u(d)]) {
+        if (inside || box.periodic[u(d)]) {
           Index3 other = slab;
           other[u(d)] = (beyond + blocks[u(d)]) % blocks[u(d)];
           Link link;
           link.block = lattice.block(other);
           const auto& starts = lattice.starts[u(d)];
           link.offset[u(d)] =
-              high ? -info.cells[u(d)] : starts[u(other[u(d)] + 1)] - starts[u(other[u(d)])];
-          info.patches.push_back({{d, high}, layer, -1, link});
+              high ? -block.cells[u(d)] : starts[u(other[u(d)] + 1)] - starts[u(other[u(d)])];
+          if (!inside)
+            link.shift[d] = (high ? 1 : -1) * (box.nodes[u(d)].back() - box.nodes[u(d)].front());
+          block.patches.push_back({{d, high}, layer, -1, link});
           continue;
         }
-        for (std::size_t p = 0; p < boxes.size(); ++p) {
-          if (grid.patches[p].side != Side{d, high})
+        for (std::size_t p = 0; p < covers.size(); ++p) {
+          if (box.patches[p].side != Side{d, high})
             continue;
-          IndexBox shared = intersection(boxes[p], mine);
+          IndexBox shared = intersection(covers[p], mine);
           if (empty(shared))
             continue;
           for (int e = 0; e < 3; ++e)
             shared.lo[u(e)] -= mine.lo[u(e)], shared.hi[u(e)] -= mine.lo[u(e)];
-          info.patches.push_back({{d, high}, shared, int(p), std::nullopt});
+          block.patches.push_back({{d, high}, shared, int(p), std::nullopt});
         }
       }
-    if (info.rank == rank)
-      mesh.local.push_back(make_block(id, info.cells, [&](int i, int j, int k) {
-        return Vec3{extended(grid.nodes[0], grid.periodic[0], mine.lo[0] + i),
-                    extended(grid.nodes[1], grid.periodic[1], mine.lo[1] + j),
-                    extended(grid.nodes[2], grid.periodic[2], mine.lo[2] + k)};
-      }));
-    mesh.blocks.push_back(std::move(info));
+    grid.blocks.push_back(std::move(block));
   }
+  Mesh mesh = make_mesh(grid, comm);
   mesh.lattice = std::move(lattice);
   return mesh;
 }

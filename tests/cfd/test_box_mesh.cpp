@@ -93,11 +93,28 @@ TEST(BoxMesh, RefusesBadPatches) {
 }
 
 TEST(BoxMesh, FoldedCellIsNamed) {
-  EXPECT_THROW(make_block(3, {2, 2, 2},
-                          [](int i, int j, int k) {
-                            return Vec3{i == 1 ? 2.5 : double(i), double(j), double(k)};
-                          }),
-               ConfigError);
+  Grid grid;
+  grid.boundaries = {"all"};
+  GridBlock block{"bent",
+                  {2, 2, 2},
+                  [](int i, int j, int k) {
+                    return Vec3{i == 1 ? 2.5 : double(i), double(j), double(k)};
+                  },
+                  {}};
+  for (int d = 0; d < 3; ++d)
+    for (const bool high : {false, true}) {
+      IndexBox side{{0, 0, 0}, {2, 2, 2}};
+      (high ? side.lo : side.hi)[std::size_t(d)] = 1;
+      block.patches.push_back({{d, high}, side, 0, std::nullopt});
+    }
+  grid.blocks.push_back(block);
+  try {
+    make_mesh(grid, MPI_COMM_SELF);
+    FAIL() << "not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("cell (1, 0, 0) of block 0 (bent)"), std::string::npos)
+        << error.what();
+  }
 }
 
 } // namespace

@@ -30,6 +30,6 @@ std::vector<double> uniform_nodes(double origin, double length, int n);
 
 /// Cuts the box into blocks, deals them to the ranks by cost and connects them. Throws ConfigError
 /// where patches overlap, leave a face bare, match no face, or lie on a periodic side.
-Mesh make_box_mesh(const BoxGrid& grid, MPI_Comm comm);
+Mesh make_box_mesh(const BoxGrid& box, MPI_Comm comm);
 
 } // namespace granflux::cfd

@@ -35,6 +35,9 @@ struct IndexBox {
 struct Link {
   int block = -1;
   Index3 axis{0, 1, 2}, sign{1, 1, 1}, offset{};
+  /// Where the donor lies as seen from this block is its own position + shift [m]: not zero across
+  /// a periodic connection.
+  Vec3 shift{};
   [[nodiscard]] Index3 donor(const Index3& c) const {
     return {offset[0] + sign[0] * c[std::size_t(axis[0])],
             offset[1] + sign[1] * c[std::size_t(axis[1])],
@@ -57,14 +60,42 @@ struct BlockInfo {
   std::vector<Patch> patches; ///< together they cover the six sides once
 };
 
-/// Node (i,j,k) of a block, 0 <= i <= cells[0]; may be called with ghost indices.
+/// Node (i,j,k) of a block [m], 0 <= i <= cells[0] and so on.
 using NodeMap = std::function<Vec3(int i, int j, int k)>;
 
+/// A block before it is anyone's: only the rank that will own it asks for its nodes.
+struct GridBlock {
+  std::string name; ///< for messages and files
+  Index3 cells{};
+  NodeMap node;
+  std::vector<Patch> patches; ///< together they cover the six sides once
+};
+
+/// A multi-block grid as a generator or a file gives it. Index triples (i,j,k) are right-handed:
+/// cells have positive volume.
+struct Grid {
+  std::vector<GridBlock> blocks;
+  std::vector<std::string> boundaries; ///< names that Patch::boundary is an index into
+};
+
+/// What a mesh that is not orthogonal needs beside areas and conductances.
+struct SkewMetrics {
+  /// cross[d] = S - conductance * dx: the part of S . grad that two cells do not see [m2].
+  std::array<VectorField, 3> cross;
+  /// offset[d]: from the point that linear interpolation between the two centres gives, to the
+  /// centre of the low face [m].
+  std::array<VectorField, 3> offset;
+  /// grad q = sum over d of dual[d] (q[+1 along d] - q[-1 along d]) / 2, exact for linear q [1/m].
+  std::array<VectorField, 3> dual;
+};
+
 /// Geometry of one block that this rank owns, all by finite-volume sums over node positions.
+/// Ghost cells behind links have the volume and (shifted) centre of the cell they stand for;
+/// those behind boundaries mirror their cell's centre through the face.
 struct Block {
   int id = 0; ///< index into Mesh::blocks
   Layout layout;
-  VectorField node;                ///< low corner of each cell [m], ghosts included
+  VectorField node;                ///< low corner of each cell [m]; high corners are one further
   VectorField centre;              ///< cell centres [m], ghosts included
   Field volume;                    ///< cell volumes [m3], ghosts included
   std::array<VectorField, 3> area; ///< area[d]: vector of the low face in direction d [m2]
@@ -72,6 +103,7 @@ struct Block {
   std::array<Field, 3> conductance;
   /// weight[d]: share of the high cell in linear interpolation to the low face in direction d.
   std::array<Field, 3> weight;
+  std::optional<SkewMetrics> skew; ///< only where the mesh is not orthogonal
 };
 
 /// A straight box of cells, cut into blocks along coordinate planes: what makes locating a point
@@ -99,6 +131,7 @@ struct Mesh {
   std::vector<BlockInfo> blocks;       ///< all blocks
   std::vector<Block> local;            ///< those of this rank, by increasing id
   std::vector<std::string> boundaries; ///< names of the boundary patches
+  bool orthogonal = true;              ///< no block of any rank has SkewMetrics
   std::optional<Lattice> lattice;      ///< set for box meshes
 
   [[nodiscard]] const BlockInfo& info(const Block& b) const { return blocks[std::size_t(b.id)]; }
@@ -108,15 +141,18 @@ struct Mesh {
 struct CellRef {
   int block = 0;
   Index3 cell{};
+  Vec3 shift{}; ///< sum over the links followed [m]
 };
 
 /// Follows links until `ref` is an interior cell; nothing where it lies behind a boundary. `ref`
 /// may be outside its block along one direction only.
 std::optional<CellRef> resolve(const Mesh& mesh, CellRef ref);
 
-/// Fills all of a block's geometry from its nodes. Throws ConfigError naming block and index where
-/// a cell has no positive volume.
-Block make_block(int id, Index3 cells, const NodeMap& node);
+/// Deals the blocks to the ranks by cost, in their order, and computes the geometry of each rank's
+/// own. Collective. Throws ConfigError on all ranks: fewer blocks than ranks, sides that are not
+/// covered once, links that do not answer each other or whose nodes do not meet, and cells without
+/// a positive volume, with block and index.
+Mesh make_mesh(const Grid& grid, MPI_Comm comm);
 
 /// Fields of the right shapes for the local blocks.
 BlockFields make_fields(const Mesh& mesh, double value = 0);
