@@ -4,24 +4,26 @@
 // LIGGGHTS with the styles of GranFlux: takes every option of `liggghts` and the same scripts.
 
 #include <csignal>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include <fmt/core.h>
 #include <mpi.h>
-#include <omp.h>
 
 #include <liggghts/lammps.h>
 
+#include <liggghts/comm.h>
 #include <liggghts/error.h>
 #include <liggghts/input.h>
 #include <liggghts/signal_handling.h>
 #include <liggghts/universe.h>
 
+#include <granflux/cfd/error.hpp>
 #include <granflux/version.hpp>
 
+#include "launch_options.hpp"
 #include "register_styles.hpp"
+#include "thread_placement.hpp"
 
 namespace {
 
@@ -49,6 +51,20 @@ void install_signal_handlers() {
   std::signal(SIGUSR1, LAMMPS_NS::SignalHandler::usr1_handler);
 }
 
+void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
+  const std::string advice = granflux::liggghts::thread_placement_advice(lammps.world);
+  if (lammps.comm->me == 0 && lammps.screen)
+    fmt::print(lammps.screen, "{}", advice);
+}
+
+void stop(std::string_view reason) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0)
+    fmt::print(stderr, "ERROR: {}\n", reason);
+  MPI_Finalize();
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -57,13 +73,17 @@ int main(int argc, char** argv) {
     return 0;
   }
   install_signal_handlers();
-  // As in LIGGGHTS: one thread a rank unless the user asks for more.
-  if (!std::getenv("OMP_NUM_THREADS"))
-    omp_set_num_threads(1);
   MPI_Init(&argc, &argv);
+  try {
+    granflux::liggghts::take_launch_options(argc, argv);
+  } catch (const granflux::ConfigError& error) {
+    stop(error.what());
+    return 1;
+  }
   {
     LAMMPS_NS::LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     check_host(lammps);
+    advise_on_threads(lammps);
     granflux::liggghts::register_styles(lammps);
     lammps.input->file();
   }

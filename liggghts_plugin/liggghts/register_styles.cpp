@@ -11,6 +11,8 @@
 #include <liggghts/modify.h>
 
 #include "fix_couple.hpp"
+#include "launch_options.hpp"
+#include "particle_subset/take_over.hpp"
 
 // LIGGGHTS has no plugin loader, and its table of fix styles, Modify::fix_map, is private. The
 // language lets an explicit instantiation name a private member ([temp.spec]/6). FixMapAccess
@@ -41,4 +43,6 @@ template <class Style> Fix* create(LAMMPS* lammps, int narg, char** arg) {
 void granflux::liggghts::register_styles(LAMMPS& lammps) {
   auto& styles = *(lammps.modify->*fix_map_member(FixMapTag{}));
   styles["granflux/couple"] = create<FixCouple>;
+  if (launch_options().subset)
+    particle_subset::take_over(lammps, styles);
 }

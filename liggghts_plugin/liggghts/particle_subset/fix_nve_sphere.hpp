@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <liggghts/fix_nve_sphere.h>
+
+#include "kick.hpp"
+
+namespace granflux::particle_subset {
+
+class Neighbor;
+
+/// fix nve/sphere with every thread moving its own particles. `update dipole` is LIGGGHTS' own.
+class FixNveSphere : public LAMMPS_NS::FixNVESphere {
+public:
+  using LAMMPS_NS::FixNVESphere::FixNVESphere;
+
+  void initial_integrate(int vflag) override;
+  void final_integrate() override;
+
+  /// True if the second half of a step may be taken with the first half of the next.
+  [[nodiscard]] bool may_owe() const;
+  /// In place of final_integrate(): the next initial_integrate() takes that half step too, with one
+  /// pass over the particles less. Nobody may look at velocities before.
+  void owe_final_integrate() { owed_ = true; }
+
+private:
+  [[nodiscard]] HalfKick half_kick() const;
+  [[nodiscard]] Spheres spheres() const;
+  [[nodiscard]] int count() const;
+  bool owed_ = false;
+};
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "verlet.hpp"
+
+#include <cstring>
+#include <string_view>
+
+#include <liggghts/atom.h>
+
+#include <liggghts/atom_vec.h>
+#include <liggghts/comm.h>
+#include <liggghts/domain.h>
+#include <liggghts/force.h>
+#include <liggghts/modify.h>
+#include <liggghts/output.h>
+#include <liggghts/pair.h>
+#include <liggghts/signal_handling.h>
+#include <liggghts/timer.h>
+#include <liggghts/update.h>
+
+#include "fix_nve_sphere.hpp"
+#include "neighbor.hpp"
+#include "team.hpp"
+
+namespace granflux::particle_subset {
+
+namespace {
+
+using namespace LAMMPS_NS::FixConst;
+using LAMMPS_NS::bigint;
+
+/// They move triangles; of particles they know the forces only.
+bool moves_meshes_only(const LAMMPS_NS::Fix& fix) {
+  const std::string_view style = fix.style;
+  return style.starts_with("mesh/surface") || style.starts_with("move/mesh");
+}
+
+/// True if every fix that is called at one of `stages` is FixNveSphere or moves meshes only.
+bool only_own_fixes_at(const LAMMPS_NS::Modify& modify, int stages) {
+  for (int i = 0; i < modify.nfix; ++i)
+    if ((modify.fmask[i] & stages) && !dynamic_cast<FixNveSphere*>(modify.fix[i]) &&
+        !moves_meshes_only(*modify.fix[i]))
+      return false;
+  return true;
+}
+
+bool any_box_change(const LAMMPS_NS::Modify& modify) {
+  for (int i = 0; i < modify.nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *modify.fix[i];
+    if (fix.box_change_size || fix.box_change_shape || fix.box_change_domain)
+      return true;
+  }
+  return false;
+}
+
+bool all_motion_is_own(const LAMMPS_NS::Modify& modify) {
+  for (int i = 0; i < modify.nfix; ++i)
+    if (modify.fix[i]->time_integrate && !dynamic_cast<FixNveSphere*>(modify.fix[i]))
+      return false;
+  return !any_box_change(modify) &&
+         only_own_fixes_at(modify, PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | POST_INTEGRATE);
+}
+
+/// The fixes that may take the second half of a step with the first half of the next: all that
+/// move particles, and nobody is called in between who could look at velocities.
+std::vector<FixNveSphere*> fixes_that_may_owe(const LAMMPS_NS::Modify& modify) {
+  if (!only_own_fixes_at(modify,
+                         FINAL_INTEGRATE | END_OF_STEP | PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE))
+    return {};
+  std::vector<FixNveSphere*> found;
+  for (int i = 0; i < modify.nfix; ++i)
+    if (auto* fix = dynamic_cast<FixNveSphere*>(modify.fix[i])) {
+      if (!fix->may_owe())
+        return {};
+      found.push_back(fix);
+    }
+  return found;
+}
+
+} // namespace
+
+void Verlet::setup() {
+  LAMMPS_NS::Verlet::setup();
+  set_up_ = true;
+}
+
+void Verlet::run(int steps) {
+  // Without a setup the script may have moved particles since the lists were built.
+  if (auto* own = dynamic_cast<Neighbor*>(neighbor))
+    own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
+  set_up_ = false;
+  may_owe_ = fixes_that_may_owe(*modify);
+
+  for (int i = 0; i < steps; ++i) {
+    const bigint now = ++update->ntimestep;
+    ev_set(now);
+
+    if (modify->n_pre_initial_integrate)
+      modify->pre_initial_integrate();
+    modify->initial_integrate(vflag);
+    owed_ = false;
+    if (modify->n_post_integrate)
+      modify->post_integrate();
+
+    if (neighbor->decide()) {
+      exchange_and_build_lists(now);
+    } else {
+      timer->stamp();
+      comm->forward_comm();
+      timer->stamp(TIME_COMM);
+    }
+
+    clear_forces();
+    if (modify->n_pre_force)
+      modify->pre_force(vflag);
+    timer->stamp();
+    if (pair_compute_flag) {
+      force->pair->compute(eflag, vflag);
+      timer->stamp(TIME_PAIR);
+    }
+
+    if (modify->n_post_force)
+      modify->post_force(vflag);
+    if (modify->n_pre_final_integrate)
+      modify->pre_final_integrate();
+    final_integrate(i + 1 == steps || now == output->next);
+    if (modify->n_end_of_step)
+      modify->end_of_step();
+
+    if (now == output->next) {
+      timer->stamp();
+      output->write(now);
+      timer->stamp(TIME_OUTPUT);
+    }
+    if (LAMMPS_NS::SignalHandler::request_quit &&
+        !LAMMPS_NS::SignalHandler::request_write_restart) {
+      if (owed_)
+        for (FixNveSphere* fix : may_owe_)
+          fix->final_integrate();
+      return;
+    }
+  }
+}
+
+void Verlet::exchange_and_build_lists(bigint now) {
+  if (modify->n_pre_exchange)
+    modify->pre_exchange();
+  domain->pbc();
+  if (domain->box_change) {
+    domain->reset_box();
+    comm->setup();
+    if (neighbor->style)
+      neighbor->setup_bins();
+  }
+  timer->stamp();
+  comm->exchange();
+  if (atom->sortfreq > 0 && now >= atom->nextsort)
+    atom->sort();
+  comm->borders();
+  timer->stamp(TIME_COMM);
+  if (modify->n_pre_neighbor)
+    modify->pre_neighbor();
+  neighbor->build(1);
+  timer->stamp(TIME_NEIGHBOR);
+}
+
+void Verlet::clear_forces() {
+  const auto clear = [&](Range range) {
+    const auto bytes = 3 * sizeof(double) * std::size_t(range.size());
+    if (bytes == 0)
+      return;
+    std::memset(atom->f[range.begin], 0, bytes);
+    std::memset(atom->torque[range.begin], 0, bytes);
+  };
+  for_each_subset(atom->nlocal, clear);
+  clear({.begin = atom->nlocal, .end = atom->nlocal + atom->nghost});
+}
+
+void Verlet::final_integrate(bool velocities_seen) {
+  owed_ = !velocities_seen && !may_owe_.empty();
+  if (!owed_) {
+    modify->final_integrate();
+    return;
+  }
+  for (int i = 0; i < modify->nfix; ++i)
+    if (modify->fmask[i] & FINAL_INTEGRATE) {
+      if (auto* own = dynamic_cast<FixNveSphere*>(modify->fix[i]))
+        own->owe_final_integrate();
+      else
+        modify->fix[i]->final_integrate();
+    }
+}
+
+namespace {
+
+/// What Verlet::run() does not deal with: bonds, long-range forces, oblique boxes, forces handed
+/// back by ghosts, and the arrays of other particle styles.
+bool spheres_only(const LAMMPS_NS::LAMMPS& lammps) {
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  return atom.sphere_flag && !atom.molecular && !atom.erforce_flag && !atom.e_flag &&
+         !atom.rho_flag && !lammps.force->kspace && !lammps.force->newton &&
+         !lammps.domain->triclinic && lammps.neighbor->includegroup == 0 &&
+         lammps.modify->find_fix("package_omp") < 0;
+}
+
+} // namespace
+
+void take_over_integrator(LAMMPS_NS::LAMMPS& lammps) {
+  LAMMPS_NS::Update& update = *lammps.update;
+  const bool runs = update.whichflag == 1;
+  if (!runs || std::string_view(update.integrate_style) != "verlet")
+    return;
+  const bool ours = dynamic_cast<Verlet*>(update.integrate);
+  if (ours == spheres_only(lammps))
+    return;
+  delete update.integrate;
+  if (ours)
+    update.integrate = new LAMMPS_NS::Verlet(&lammps, 0, nullptr);
+  else
+    update.integrate = new Verlet(&lammps, 0, nullptr);
+  update.integrate->init();
+}
+
+} // namespace granflux::particle_subset

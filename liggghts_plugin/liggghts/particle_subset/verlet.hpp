@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <liggghts/verlet.h>
+
+namespace granflux::particle_subset {
+
+class FixNveSphere;
+
+/// LIGGGHTS' time step: the calls to fixes, pair style, communication and output in the order and
+/// under the conditions of run_style verlet. Forces are cleared by the thread that owns them, and
+/// the two half steps of velocity between two positions are taken in one pass over the particles
+/// where nobody looks in between.
+class Verlet : public LAMMPS_NS::Verlet {
+public:
+  using LAMMPS_NS::Verlet::Verlet;
+
+  void setup() override;
+  void run(int steps) override;
+
+private:
+  void exchange_and_build_lists(LAMMPS_NS::bigint now);
+  void clear_forces();
+  void final_integrate(bool velocities_seen);
+
+  bool set_up_ = false;                // setup() was called since the last run
+  std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
+  bool owed_ = false;
+};
+
+/// Puts Verlet in the place of LIGGGHTS' own where that is about to run spheres.
+void take_over_integrator(LAMMPS_NS::LAMMPS& lammps);
+
+} // namespace granflux::particle_subset
