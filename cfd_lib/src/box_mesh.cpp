@@ -69,21 +69,9 @@ IndexBox covered(const BoxGrid& grid, const BoxPatch& patch, const Index3& cells
   return box;
 }
 
-bool empty(const IndexBox& b) {
-  return b.lo[0] >= b.hi[0] || b.lo[1] >= b.hi[1] || b.lo[2] >= b.hi[2];
-}
-
-IndexBox intersection(const IndexBox& a, const IndexBox& b) {
-  IndexBox out;
-  for (int d = 0; d < 3; ++d) {
-    out.lo[u(d)] = std::max(a.lo[u(d)], b.lo[u(d)]);
-    out.hi[u(d)] = std::min(a.hi[u(d)], b.hi[u(d)]);
-  }
-  return out;
-}
-
 std::int64_t faces(const IndexBox& b) {
-  return empty(b) ? 0 : std::int64_t(b.hi[0] - b.lo[0]) * (b.hi[1] - b.lo[1]) * (b.hi[2] - b.lo[2]);
+  return b.empty() ? 0
+                   : std::int64_t(b.hi[0] - b.lo[0]) * (b.hi[1] - b.lo[1]) * (b.hi[2] - b.lo[2]);
 }
 
 /// Every face of every side belongs to exactly one patch, or the side is periodic.
@@ -201,7 +189,7 @@ Mesh make_box_mesh(const BoxGrid& box, MPI_Comm comm) {
           if (box.patches[p].side != Side{d, high})
             continue;
           IndexBox shared = intersection(covers[p], mine);
-          if (empty(shared))
+          if (shared.empty())
             continue;
           for (int e = 0; e < 3; ++e)
             shared.lo[u(e)] -= mine.lo[u(e)], shared.hi[u(e)] -= mine.lo[u(e)];

@@ -7,8 +7,10 @@
 
 #include <fmt/core.h>
 
+#include <granflux/cfd/deal_blocks.hpp>
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/halo.hpp>
+#include <granflux/cfd/join_blocks.hpp>
 #include <granflux/cfd/mesh.hpp>
 
 #include "block_geometry.hpp"
@@ -39,15 +41,6 @@ template <class Body> void for_box(const IndexBox& box, Body&& body) {
     for (int j = box.lo[1]; j < box.hi[1]; ++j)
       for (int i = box.lo[0]; i < box.hi[0]; ++i)
         body(Index3{i, j, k});
-}
-
-/// The cells along one side of a block.
-IndexBox layer(const Index3& cells, const Side& side) {
-  IndexBox box{{0, 0, 0}, cells};
-  const auto d = u(side.direction);
-  box.lo[d] = side.high ? cells[d] - 1 : 0;
-  box.hi[d] = box.lo[d] + 1;
-  return box;
 }
 
 Index3 beyond(Index3 cell, const Side& side, int steps = 1) {
@@ -113,24 +106,12 @@ void check_links_answer(const Grid& grid, const Mesh& mesh, int id) {
 void deal(Mesh& mesh, const Grid& grid) {
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
-  const int count = int(grid.blocks.size());
-  if (count < ranks)
-    throw ConfigError("grid: " + std::to_string(count) + " blocks for " + std::to_string(ranks) +
-                      " ranks: every rank needs at least one block");
-  const auto size = [](const Index3& c) { return std::int64_t(c[0]) * c[1] * c[2]; };
-  std::int64_t dealt = 0, total = 0;
+  std::vector<std::int64_t> cost;
   for (const GridBlock& block : grid.blocks)
-    total += size(block.cells);
-  for (int id = 0; id < count; ++id) {
-    const GridBlock& block = grid.blocks[u(id)];
-    BlockInfo info{block.cells, 0, block.patches};
-    // By cost in block order, yet never so that a later rank is left without a block.
-    const std::int64_t cells = size(block.cells);
-    info.rank = std::max(int((dealt + cells / 2) * ranks / total), ranks - (count - id));
-    info.rank = std::min({info.rank, ranks - 1, id == 0 ? 0 : mesh.blocks.back().rank + 1});
-    dealt += cells;
-    mesh.blocks.push_back(std::move(info));
-  }
+    cost.push_back(cell_count(block.cells));
+  const std::vector<int> rank_of = deal_blocks(cost, ranks);
+  for (std::size_t id = 0; id < grid.blocks.size(); ++id)
+    mesh.blocks.push_back({grid.blocks[id].cells, rank_of[id], grid.blocks[id].patches});
 }
 
 /// Throws on all ranks what the first of them has to say.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <mpi.h>
@@ -28,7 +29,17 @@ struct IndexBox {
     return c[0] >= lo[0] && c[1] >= lo[1] && c[2] >= lo[2] && c[0] < hi[0] && c[1] < hi[1] &&
            c[2] < hi[2];
   }
+  [[nodiscard]] bool empty() const { return lo[0] >= hi[0] || lo[1] >= hi[1] || lo[2] >= hi[2]; }
 };
+
+[[nodiscard]] inline IndexBox intersection(const IndexBox& a, const IndexBox& b) {
+  IndexBox both;
+  for (std::size_t d = 0; d < 3; ++d) {
+    both.lo[d] = std::max(a.lo[d], b.lo[d]);
+    both.hi[d] = std::min(a.hi[d], b.hi[d]);
+  }
+  return both;
+}
 
 /// One-to-one connection: cell c of this block, continued past the side, is donor cell
 /// offset[d] + sign[d] * c[axis[d]] for d = 0, 1, 2. Any orientation.

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::cfd {
+
+/// For each block of a grid the boxes that it is cut into; together they are the block.
+using Pieces = std::vector<std::vector<IndexBox>>;
+
+/// The same grid in smaller blocks: the pieces, in their order. Patches are cut along; a piece may
+/// face several others, so that no cut has to go on in the next block.
+Grid split_blocks(const Grid& grid, const Pieces& pieces);
+
+/// Cuts that give every rank its share when deal_blocks deals the pieces in their order. Blocks are
+/// cut only where a share ends inside; where they can be, cuts are short and at cells that are
+/// multiples of powers of two, since multigrid joins cells within blocks. Pieces have at least two
+/// cells along a direction that is cut. Throws ConfigError where there are too few cells.
+Pieces choose_pieces(const Grid& grid, int ranks);
+
+/// The grid itself if its blocks keep the ranks busy (largest load at most 1.1 of the mean), else
+/// split by choose_pieces.
+Grid split_for_ranks(const Grid& grid, int ranks);
+
+} // namespace granflux::cfd

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <map>
+#include <random>
+
+#include <granflux/cfd/annulus_grid.hpp>
+#include <granflux/cfd/cylinder_grid.hpp>
+#include <granflux/cfd/deal_blocks.hpp>
+#include <granflux/cfd/split_blocks.hpp>
+
+#include "expect_config_error.hpp"
+#include "grid_checks.hpp"
+
+using namespace granflux;
+using namespace granflux::cfd;
+using namespace granflux::cfd::testing;
+using granflux::test::config_error;
+
+namespace {
+
+Grid drum(int core, int radial, int axial, bool periodic = true) {
+  CylinderGrid c;
+  c.radius = 1, c.length = 2;
+  c.core = core, c.radial = radial, c.axial = axial, c.periodic_axis = periodic;
+  return make_cylinder(c);
+}
+
+Grid gap(int radial, int tangential, int axial) {
+  AnnulusGrid a;
+  a.inner_radius = 1, a.outer_radius = 2, a.length = 1;
+  a.radial = radial, a.tangential = tangential, a.axial = axial;
+  a.arcs = {{"left", 90, 270}, {"right", -90, 90}};
+  return make_annulus(a);
+}
+
+/// Cuts every block at random places, again and again, so that edges meet sides anywhere.
+Pieces random_pieces(const Grid& grid, std::mt19937& random) {
+  Pieces pieces;
+  for (const GridBlock& block : grid.blocks) {
+    std::vector<IndexBox> boxes{{{0, 0, 0}, block.cells}};
+    for (int n = 0; n < 4; ++n) {
+      IndexBox& box = boxes[random() % boxes.size()];
+      const std::size_t d = random() % 3;
+      const int length = box.hi[d] - box.lo[d];
+      if (length < 2)
+        continue;
+      IndexBox upper = box;
+      upper.lo[d] = box.hi[d] = box.lo[d] + 1 + int(random() % unsigned(length - 1));
+      boxes.push_back(upper);
+    }
+    pieces.push_back(boxes);
+  }
+  return pieces;
+}
+
+using Key = std::array<long, 3>;
+Key key(const Vec3& x) {
+  return {std::lround(x.x * 1e6), std::lround(x.y * 1e6), std::lround(x.z * 1e6)};
+}
+
+/// Centre of each cell with its volume and the centres of its six neighbours, both layers, in no
+/// order: what must not depend on blocks. A block of the whole mesh is on one rank here.
+std::map<Key, std::vector<double>> geometry(const Mesh& mesh) {
+  std::map<Key, std::vector<double>> cells;
+  for_cells(mesh, [&](std::size_t b, std::ptrdiff_t c, const Index3& cell) {
+    const Block& block = mesh.local[b];
+    std::vector<double> about;
+    for (std::size_t d = 0; d < 3; ++d)
+      for (const int step : {-2, -1, 1, 2}) {
+        Index3 there = cell;
+        there[d] += step;
+        const auto ref = resolve(mesh, {block.id, there});
+        if (!ref && std::abs(step) == 2)
+          continue; // at two cells from a boundary only the first ghost stands for something
+        const std::ptrdiff_t at = c + step * block.layout.stride[d];
+        const Vec3 x = vector_at(block.centre, at);
+        about.push_back(x.x + 10 * x.y + 100 * x.z);
+        about.push_back(block.volume[at]);
+      }
+    about.push_back(block.volume[c]);
+    std::sort(about.begin(), about.end());
+    EXPECT_TRUE(cells.emplace(key(vector_at(block.centre, c)), about).second);
+  });
+  return cells;
+}
+
+void expect_same_geometry(const Grid& a, const Grid& b) {
+  const auto one = geometry(make_mesh(a, MPI_COMM_SELF)),
+             two = geometry(make_mesh(b, MPI_COMM_SELF));
+  ASSERT_EQ(one.size(), two.size());
+  for (auto i = one.begin(), j = two.begin(); i != one.end(); ++i, ++j) {
+    ASSERT_EQ(i->first, j->first);
+    ASSERT_EQ(i->second.size(), j->second.size());
+    for (std::size_t n = 0; n < i->second.size(); ++n)
+      ASSERT_NEAR(i->second[n], j->second[n], 1e-13);
+  }
+}
+
+std::int64_t cells_of(const Grid& grid) {
+  std::int64_t cells = 0;
+  for (const GridBlock& block : grid.blocks)
+    cells += cell_count(block.cells);
+  return cells;
+}
+
+double balance_of(const Grid& grid, int ranks) {
+  std::vector<std::int64_t> cost;
+  for (const GridBlock& block : grid.blocks)
+    cost.push_back(cell_count(block.cells));
+  return imbalance(cost, deal_blocks(cost, ranks), ranks);
+}
+
+} // namespace
+
+TEST(DealBlocks, LargestLoadIsTheLeastPossible) {
+  EXPECT_EQ(deal_blocks({5, 1, 1, 1, 1, 1}, 2), (std::vector<int>{0, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(deal_blocks({1, 1, 1, 9}, 3), (std::vector<int>{0, 0, 1, 2}));
+  EXPECT_EQ(deal_blocks({3, 3, 3}, 3), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(config_error([] {
+              (void)deal_blocks({3, 3}, 3);
+            }),
+            "grid: 2 blocks for 3 ranks: every rank needs at least one block");
+  // Against every way to cut a row of blocks in three.
+  std::mt19937 random(7);
+  for (int n = 0; n < 50; ++n) {
+    std::vector<std::int64_t> cost(8);
+    for (auto& c : cost)
+      c = 1 + random() % 20;
+    std::int64_t least = 1 << 20;
+    for (std::size_t i = 1; i < 7; ++i)
+      for (std::size_t j = i + 1; j < 8; ++j) {
+        std::array<std::int64_t, 3> load{};
+        for (std::size_t b = 0; b < 8; ++b)
+          load[b < i ? 0 : b < j ? 1 : 2] += cost[b];
+        least = std::min(least, *std::max_element(load.begin(), load.end()));
+      }
+    std::array<std::int64_t, 3> load{};
+    const auto rank_of = deal_blocks(cost, 3);
+    for (std::size_t b = 0; b < 8; ++b)
+      load[std::size_t(rank_of[b])] += cost[b];
+    EXPECT_EQ(*std::max_element(load.begin(), load.end()), least);
+  }
+}
+
+TEST(SplitBlocks, KeepsTheGeometryWhereverItIsCut) {
+  std::mt19937 random(3);
+  for (const Grid& whole : {drum(6, 4, 5), drum(5, 3, 4, false), gap(4, 9, 3)})
+    for (int n = 0; n < 8; ++n) {
+      const Grid split = split_blocks(whole, random_pieces(whole, random));
+      EXPECT_GT(split.blocks.size(), whole.blocks.size());
+      expect_links_meet(split);
+      expect_same_geometry(whole, split);
+    }
+}
+
+TEST(SplitBlocks, BoundariesAreCutAlong) {
+  std::mt19937 random(11);
+  const Grid whole = gap(4, 12, 3);
+  const Mesh mesh = make_mesh(split_blocks(whole, random_pieces(whole, random)), MPI_COMM_SELF);
+  const Mesh one = make_mesh(whole, MPI_COMM_SELF);
+  EXPECT_EQ(mesh.boundaries, one.boundaries);
+  for (const std::string& name : one.boundaries)
+    EXPECT_NEAR(boundary_area(mesh, name), boundary_area(one, name), 1e-13);
+}
+
+TEST(SplitForRanks, BalancesAnyNumberOfRanks) {
+  for (const Grid& grid :
+       {drum(10, 5, 3), drum(10, 5, 15), drum(16, 8, 32), gap(16, 48, 8), gap(64, 128, 1)})
+    for (int ranks = 1; ranks <= 13; ++ranks) {
+      const Grid split = split_for_ranks(grid, ranks);
+      // With fewer cells, a plane of them is more than that.
+      const double limit = cells_of(grid) / ranks >= 300 ? 1.1 : 1.35;
+      EXPECT_LE(balance_of(split, ranks), limit)
+          << grid.blocks.size() << " blocks for " << ranks << " ranks";
+      EXPECT_LE(split.blocks.size(), grid.blocks.size() + std::size_t(ranks));
+      expect_links_meet(split);
+    }
+}
+
+TEST(SplitForRanks, LeavesWhatIsBalancedAlone) {
+  const Grid grid = drum(10, 10, 8);
+  for (const int ranks : {1, 5})
+    EXPECT_EQ(split_for_ranks(grid, ranks).blocks.size(), 5u);
+}
+
+TEST(SplitForRanks, CutsWhereMultigridCanGoOn) {
+  for (const int ranks : {2, 4, 8}) {
+    const Grid split = split_for_ranks(gap(32, 64, 16), ranks);
+    EXPECT_EQ(balance_of(split, ranks), 1);
+    for (const GridBlock& block : split.blocks)
+      for (const int n : block.cells)
+        EXPECT_EQ(n % 8, 0);
+  }
+}
+
+TEST(SplitForRanks, TooFewCellsAreAnError) {
+  const auto message = config_error([] { (void)split_for_ranks(gap(1, 4, 1), 4); });
+  EXPECT_EQ(message,
+            "grid: block 0 (annulus) of 1 x 4 x 1 cells cannot be cut into 4 pieces with at least "
+            "two cells a direction, as 4 ranks need it: use fewer ranks or more cells");
+}
+
+TEST(SplitForRanks, TheRunsMeshIsTheSame) {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const Grid whole = drum(7, 4, 6);
+  const Mesh mesh = make_mesh(split_for_ranks(whole, ranks), MPI_COMM_WORLD);
+  EXPECT_LE(imbalance(mesh), 1.1);
+  EXPECT_NEAR(total_volume(mesh), total_volume(make_mesh(whole, MPI_COMM_SELF)), 1e-12);
+  EXPECT_LT(largest_gap(mesh), 1e-14);
+  expect_ghosts_follow(mesh);
+}
