@@ -5,6 +5,7 @@
 #include <string>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/gradient.hpp>
 #include <granflux/cfd/sweep.hpp>
 
 namespace granflux::cfd {
@@ -142,13 +143,9 @@ void add_skew_metrics(Block& block) {
           step.to_face - block.weight[std::size_t(d)][f] * step.centres);
     });
   for_cells(layout, [&](std::ptrdiff_t c) {
-    std::array<Vec3, 3> way; // half the way from the neighbour below to the one above
+    const std::array<Vec3, 3> dual = dual_vectors(block, c);
     for (std::size_t d = 0; d < 3; ++d)
-      way[d] =
-          0.5 * (get(block.centre, c + layout.stride[d]) - get(block.centre, c - layout.stride[d]));
-    const double determinant = dot(way[0], cross(way[1], way[2]));
-    for (std::size_t d = 0; d < 3; ++d)
-      set(skew.dual[d], c, cross(way[(d + 1) % 3], way[(d + 2) % 3]) / determinant);
+      set(skew.dual[d], c, dual[d]);
   });
 }
 

@@ -8,16 +8,14 @@
 
 #include <granflux/cfd/error.hpp>
 
+#include "block_geometry.hpp"
+
 namespace granflux::cfd {
 
 namespace {
 
-Vec3 at(const VectorField& field, std::ptrdiff_t c) {
-  return {field[0][c], field[1][c], field[2][c]};
-}
-
 Vec3 unit_normal(const Block& block, const BoundaryPatch& patch, const BoundaryFace& face) {
-  const Vec3 area = at(block.area[std::size_t(patch.direction)], face.face);
+  const Vec3 area = get(block.area[std::size_t(patch.direction)], face.face);
   return area * (patch.outward / norm(area));
 }
 
@@ -72,7 +70,7 @@ void shape_parabolic(const Mesh& mesh, std::vector<BoundaryPatch>& patches, int 
     std::ptrdiff_t far = face.cell;
     for (const std::ptrdiff_t stride : block.layout.stride)
       far += stride;
-    return std::array<Vec3, 2>{at(block.node, face.cell), at(block.node, far)};
+    return std::array<Vec3, 2>{get(block.node, face.cell), get(block.node, far)};
   };
   each([&](const Block& block, const BoundaryPatch&, const BoundaryFace& face) {
     for (const Vec3& x : corners(block, face))
@@ -126,17 +124,21 @@ Boundaries::Boundaries(const Mesh& mesh, const std::vector<BoundaryCondition>& c
 
   int through = -1; // a wall that moves through itself
   for (const BoundaryPatch& patch : patches_) {
-    const BoundaryCondition& c = condition(patch);
-    for (const BoundaryFace& face : patch.faces)
-      if (c.kind == BoundaryKind::wall &&
-          std::abs(dot(c.velocity, unit_normal(mesh.local[std::size_t(patch.block)], patch,
-                                               face))) > 1e-9 * norm(c.velocity))
+    if (condition(patch).kind != BoundaryKind::wall)
+      continue;
+    for (const BoundaryFace& face : patch.faces) {
+      constexpr double tangential = 1e-6; // of a facet of a round wall, too
+      const Vec3 velocity = this->velocity(patch, face, 0);
+      const Vec3 normal = unit_normal(mesh.local[std::size_t(patch.block)], patch, face);
+      if (std::abs(dot(velocity, normal)) > tangential * norm(velocity))
         through = patch.condition;
+    }
   }
   MPI_Allreduce(MPI_IN_PLACE, &through, 1, MPI_INT, MPI_MAX, mesh.comm);
   if (through >= 0)
     throw ConfigError("boundary \"" + conditions_[std::size_t(through)].name +
-                      "\": the velocity of a wall must be tangential to it");
+                      "\": the velocity of a wall must be tangential to it; a wall that turns must "
+                      "be round about its axis");
 }
 
 bool Boundaries::has_outlet() const {
@@ -146,8 +148,14 @@ bool Boundaries::has_outlet() const {
 
 Vec3 Boundaries::velocity(const BoundaryPatch& patch, const BoundaryFace& face, double time) const {
   const BoundaryCondition& c = condition(patch);
-  if (c.kind == BoundaryKind::wall)
-    return c.velocity;
+  if (c.kind == BoundaryKind::wall) {
+    if (c.angular_velocity == Vec3{})
+      return c.velocity;
+    const Vec3 arm =
+        low_face_centre(mesh_.local[std::size_t(patch.block)], patch.direction, face.face) -
+        c.centre;
+    return c.velocity + cross(c.angular_velocity, arm);
+  }
   if (c.kind != BoundaryKind::inlet)
     return {};
   const double share = c.ramp_time > 0 ? std::clamp(time / c.ramp_time, 0.0, 1.0) : 1.0;
@@ -162,7 +170,7 @@ void Boundaries::fill_velocity(BlockVectors& velocity, const BlockFields& void_f
     VectorField& u = velocity[b];
     const BoundaryKind kind = condition(patch).kind;
     for (const BoundaryFace& face : patch.faces) {
-      const Vec3 inside = at(u, face.cell);
+      const Vec3 inside = get(u, face.cell);
       Vec3 ghost = inside;
       if (kind == BoundaryKind::inlet)
         ghost = (2 / void_fraction[b][face.cell]) * this->velocity(patch, face, time) - inside;
@@ -211,11 +219,28 @@ void Boundaries::fill_pressure(BlockFields& pressure, const BlockVectors& drag_s
         p[face.ghost] = p[face.cell];
         continue;
       }
-      const Vec3 outwards = at(x, face.ghost) - at(x, face.cell);
-      const Vec3 inwards = at(x, face.inner) - at(x, face.cell);
-      const Vec3 here = at(drag_slope[b], face.cell), inside = at(drag_slope[b], face.inner);
+      const Vec3 outwards = get(x, face.ghost) - get(x, face.cell);
+      const Vec3 inwards = get(x, face.inner) - get(x, face.cell);
+      const Vec3 here = get(drag_slope[b], face.cell), inside = get(drag_slope[b], face.inner);
       const double smooth = p[face.inner] - p[face.cell] - 0.5 * dot(here + inside, inwards);
       p[face.ghost] = p[face.cell] - smooth * norm(outwards) / norm(inwards) + dot(here, outwards);
+    }
+  }
+}
+
+void Boundaries::move_pressure_ghosts(BlockFields& pressure, const BlockVectors& slope) const {
+  for (const BoundaryPatch& patch : patches_) {
+    const auto b = std::size_t(patch.block);
+    const VectorField& x = mesh_.local[b].centre;
+    if (condition(patch).kind == BoundaryKind::outlet)
+      continue;
+    for (const BoundaryFace& face : patch.faces) {
+      if (face.inner == face.cell)
+        continue;
+      const Vec3 outwards = get(x, face.ghost) - get(x, face.cell);
+      const Vec3 inwards = get(x, face.inner) - get(x, face.cell);
+      const Vec3 aside = outwards + (norm(outwards) / norm(inwards)) * inwards;
+      pressure[b][face.ghost] += dot(get(slope[b], face.cell), aside);
     }
   }
 }
@@ -232,7 +257,7 @@ void Boundaries::fill_temperature(BlockFields& temperature,
       if (c.heat == Heat::temperature)
         t[face.ghost] = 2 * c.temperature - t[face.cell];
       else if (c.heat == Heat::flux)
-        t[face.ghost] += c.heat_flux * norm(at(mesh_.local[b].area[d], face.face)) /
+        t[face.ghost] += c.heat_flux * norm(get(mesh_.local[b].area[d], face.face)) /
                          conductance[b][d][face.face];
     }
   }

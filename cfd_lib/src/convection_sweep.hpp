@@ -6,6 +6,8 @@
 
 #include <granflux/cfd/boundary.hpp>
 #include <granflux/cfd/convection.hpp>
+#include <granflux/cfd/face_sum.hpp>
+#include <granflux/cfd/gradient.hpp>
 #include <granflux/cfd/sweep.hpp>
 
 namespace granflux::cfd {
@@ -19,6 +21,8 @@ struct Carried {
   double factor = 1;                           ///< density, or heat capacity per volume
   /// Value that gas brings back through an outlet.
   std::function<double(const BoundaryCondition&)> backflow;
+  /// Its gradient, where the mesh is not orthogonal: moves the value to the face's centre.
+  const BlockVectors* gradient = nullptr;
 };
 
 /// One sweep over all local blocks; returns what leaves through this rank's boundaries.
@@ -37,6 +41,11 @@ double convect(const Scheme& scheme, const Mesh& mesh, const Boundaries& boundar
                                        : scheme(q[c + s], q[c], q[c - s], 1 - w[c]);
         through[c] = carried.factor * f[c] * value;
       });
+      if (carried.gradient)
+        for_faces(block.layout, int(d), [&, s](std::ptrdiff_t c) {
+          through[c] +=
+              carried.factor * f[c] * along(block.skew->offset[d], (*carried.gradient)[b], w, c, s);
+        });
     }
   }
   double outflow = 0;
@@ -55,13 +64,9 @@ double convect(const Scheme& scheme, const Mesh& mesh, const Boundaries& boundar
     }
   }
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
-    const auto [si, sj, sk] = mesh.local[b].layout.stride;
-    const auto& [fi, fj, fk] = work[b];
+    const FaceSum net(mesh.local[b].layout, work[b]);
     Field& out = carried.out(b);
-    for_cells(mesh.local[b].layout,
-              [&, si = si, sj = sj, sk = sk, &fi = fi, &fj = fj, &fk = fk](std::ptrdiff_t c) {
-                out[c] = fi[c + si] - fi[c] + fj[c + sj] - fj[c] + fk[c + sk] - fk[c];
-              });
+    for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) { out[c] = net(c); });
   }
   return outflow;
 }

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include <granflux/cfd/boundary.hpp>
 #include <granflux/cfd/diffusion_solver.hpp>
 #include <granflux/cfd/gas_solver.hpp>
 #include <granflux/cfd/halo.hpp>
+#include <granflux/cfd/transport_solver.hpp>
 
 #include "convection_sweep.hpp"
 
@@ -29,9 +32,11 @@ public:
   void begin(const BlockFields& eps) { eps_ = eps; }
   /// `ratio`: this time step over the last one, 0 in a first step. Fills the energy terms of
   /// `balance`. Collective.
+  /// `eddy_viscosity` [Pa s] is empty where it is not modelled; eddies conduct with a turbulent
+  /// Prandtl number of 0.85.
   void advance(double dt, double ratio, const FaceFields& flux, const BlockFields& eps,
-               const BlockFields& eps_middle, const HeatExchange* exchange, FaceFields& work,
-               Balance& balance);
+               const BlockFields& eps_middle, const BlockFields& eddy_viscosity,
+               const HeatExchange* exchange, FaceFields& work, Balance& balance);
 
   template <class Visit> void visit_state(Visit&& visit) {
     for (BlockFields* fields : {&temperature_, &temperature_old_})
@@ -41,8 +46,10 @@ public:
 
 private:
   void fill_ghosts(BlockFields& temperature) const;
-  void set_conductance(const BlockFields& eps_middle);
-  [[nodiscard]] double boundary_conduction(const BlockFields& temperature) const;
+  void set_conductance(const BlockFields& eps_middle, const BlockFields& eddy_viscosity);
+  double conduct(FaceFields& work);
+  double convect_heat(const FaceFields& flux, const BlockFields& carried, FaceFields& work);
+  void solve(const FaceFields& flux, FaceFields& work);
   template <class Term> [[nodiscard]] double sum(Term&& term) const;
 
   const Mesh& mesh_;
@@ -52,8 +59,10 @@ private:
   Numerics numerics_;
   double capacity_; ///< rho cp [J/(m3 K)]
   DiffusionSolver solver_;
+  std::unique_ptr<TransportSolver> implicit_;          ///< only where the scheme is implicit
   BlockFields temperature_, temperature_old_, middle_; ///< K
   BlockFields eps_, inertia_, rhs_, defect_, flow_, spread_;
+  BlockVectors gradient_; ///< only where the mesh is not orthogonal [K/m]
   FaceConductance conductance_;
 };
 

@@ -16,13 +16,13 @@ Vec3 GasSolver::Impl::momentum() const {
 }
 
 void GasSolver::Impl::take_balance(double dt, const MomentumExchange* exchange,
-                                   const Vec3& friction_force, const Vec3& old_momentum) {
+                                   const Vec3& old_momentum) {
   balance = {};
   balance.momentum = momentum();
   balance.thermal_buoyancy = thermal_buoyancy;
   balance.momentum_change = (balance.momentum - old_momentum) / dt;
-  balance.convection = -(ab_now * outflow + ab_old * outflow_old);
-  balance.friction = friction_force;
+  balance.convection = -boundary_convection;
+  balance.friction = boundary_friction;
   for (const BoundaryPatch& patch : boundaries.patches()) {
     const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
     for (const BoundaryFace& face : patch.faces) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <granflux/cfd/error.hpp>
+
 namespace granflux::cfd {
 
 /// Boussinesq: the weight that the gas has less, or more, than at the reference temperature.
@@ -30,103 +32,112 @@ void GasSolver::Impl::add_thermal_buoyancy() {
   }
 }
 
-void GasSolver::Impl::set_conductance() {
-  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
-    const Block& block = mesh.local[b];
-    for (std::size_t d = 0; d < 3; ++d)
-      for_faces(block.layout, int(d), [&](std::ptrdiff_t f) {
-        conductance[b][d][f] = fluid.viscosity * block.conductance[d][f] *
-                               on_face(eps_middle[b], block.weight[d], f, block.layout.stride[d]);
-      });
-  }
-}
-
-/// Viscous force of the boundaries on the gas, this rank, for the velocity as it is [N].
-Vec3 GasSolver::Impl::boundary_friction() const {
-  Vec3 force;
-  for (const BoundaryPatch& patch : boundaries.patches()) {
-    const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
-    for (const BoundaryFace& face : patch.faces)
-      for (int m = 0; m < 3; ++m)
-        force[m] += conductance[b][d][face.face] *
-                    (u[b][std::size_t(m)][face.ghost] - u[b][std::size_t(m)][face.cell]);
-  }
-  return force;
-}
-
 DiffusionSolver::Unknown GasSolver::Impl::component(std::size_t m) {
   return {"momentum equation: component " + std::string(1, "xyz"[m]),
           [this, m](std::size_t b) -> Field& { return u[b][m]; },
           [this, m](BlockFields& q) { boundaries.fill_velocity_correction(q, int(m)); }};
 }
 
-/// Momentum without the new pressure: leaves a and r, with which the new velocity will be
-/// (r - share grad p) / a.
-void GasSolver::Impl::predict(double dt, const MomentumExchange* exchange, double new_time,
-                              StepReport& report) {
+/// The part of the momentum equation that the new velocity does not change: leaves a, share and r
+/// with old momentum (set before the inertia moved), convection, half the old friction, drag.
+void GasSolver::Impl::begin_momentum(double dt, const MomentumExchange* exchange) {
+  boundary_convection = ab_now * outflow + ab_old * outflow_old;
+  for (std::size_t m = 0; m < 3; ++m)
+    boundary_friction[int(m)] =
+        0.5 * viscous_force(m, [&](std::size_t b) -> Field& { return friction[b][m]; });
   const double rho_dt = fluid.density / dt;
-  // r so far: old momentum (set before the inertia moved), convection, half the old friction.
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
-    for (std::size_t m = 0; m < 3; ++m) {
-      diffusion(block.layout, conductance[b], u[b][m], friction[b][m]);
+    for (std::size_t m = 0; m < 3; ++m)
       for_cells(block.layout, [&](std::ptrdiff_t c) {
         r[b][m][c] -= (ab_now * convection[b][m][c] + ab_old * convection_old[b][m][c] -
                        0.5 * friction[b][m][c]) /
                       block.volume[c];
       });
-    }
     for_cells(block.layout, [&](std::ptrdiff_t c) { a[b][c] = rho_dt * eps_inertia[b][c]; });
     if (!exchange) {
       share[b] = eps_middle[b];
-      continue;
+    } else {
+      share[b] = exchange->pressure_fraction[b];
+      for_cells(block.layout, [&](std::ptrdiff_t c) {
+        a[b][c] += exchange->drag_coefficient[b][c];
+        for (std::size_t m = 0; m < 3; ++m)
+          r[b][m][c] += exchange->drag_source[b][m][c];
+      });
     }
-    share[b] = exchange->pressure_fraction[b];
-    for_cells(block.layout, [&](std::ptrdiff_t c) {
-      a[b][c] += exchange->drag_coefficient[b][c];
-      for (std::size_t m = 0; m < 3; ++m)
-        r[b][m][c] += exchange->drag_source[b][m][c];
-    });
+    for_cells(block.layout, [&](std::ptrdiff_t c) { inertia[b][c] = a[b][c] * block.volume[c]; });
   }
-  for (std::size_t b = 0; b < mesh.local.size(); ++b)
-    for_cells(mesh.local[b].layout,
-              [&](std::ptrdiff_t c) { inertia[b][c] = a[b][c] * mesh.local[b].volume[c]; });
+}
 
-  boundaries.fill_velocity(u, eps_middle, new_time); // the new boundary values
-  for (std::size_t m = 0; m < 3; ++m) {
-    for (std::size_t b = 0; b < mesh.local.size(); ++b)
-      diffusion(mesh.local[b].layout, conductance[b], u[b][m], spread[b]);
-    double scale = 0;
-    for (std::size_t b = 0; b < mesh.local.size(); ++b) {
-      const Field& volume = mesh.local[b].volume;
-      const Layout& layout = mesh.local[b].layout;
-      for_cells(layout, [&](std::ptrdiff_t c) {
-        const double rhs = (r[b][m][c] - share[b][c] * grad_p[b][m][c]) * volume[c];
-        defect[b][c] = rhs - inertia[b][c] * u[b][m][c] + 0.5 * spread[b][c];
-      });
-      scale += sum_cells(layout, [&](std::ptrdiff_t c) {
-        const double rhs = (r[b][m][c] - share[b][c] * grad_p[b][m][c]) * volume[c];
-        const double size = std::abs(rhs) + inertia[b][c] * std::abs(u[b][m][c]);
-        return size * size;
-      });
+/// Momentum without the new pressure, Crank-Nicolson for friction: leaves r, with which the new
+/// velocity will be (r - share grad p) / a.
+void GasSolver::Impl::predict(double new_time, StepReport& report) {
+  constexpr int most_passes = 100;
+  // Where cells are not orthogonal the solver knows a part of friction only: the defect of the
+  // whole is made small in several passes.
+  const bool once = mesh.orthogonal && eddy_viscosity.empty();
+  std::array<double, 3> scale{};
+  for (int pass = 0; pass < most_passes; ++pass) {
+    if (pass > 0)
+      halo.exchange(u);
+    boundaries.fill_velocity(u, eps_middle, new_time); // the new boundary values
+    update_velocity_gradient();
+    bool good = true;
+    for (std::size_t m = 0; m < 3; ++m) {
+      viscous_force(m, [&](std::size_t b) -> Field& { return spread[b]; });
+      double sums[2] = {0, 0}; // squares: of the equation's terms, of its defect
+      for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+        const Field& volume = mesh.local[b].volume;
+        const Layout& layout = mesh.local[b].layout;
+        for_cells(layout, [&](std::ptrdiff_t c) {
+          const double rhs = (r[b][m][c] - share[b][c] * grad_p[b][m][c]) * volume[c];
+          defect[b][c] = rhs - inertia[b][c] * u[b][m][c] + 0.5 * spread[b][c];
+        });
+        sums[0] += sum_cells(layout, [&](std::ptrdiff_t c) {
+          const double rhs = (r[b][m][c] - share[b][c] * grad_p[b][m][c]) * volume[c];
+          const double size = std::abs(rhs) + inertia[b][c] * std::abs(u[b][m][c]);
+          return size * size;
+        });
+        if (!once)
+          sums[1] +=
+              sum_cells(layout, [&](std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; });
+      }
+      MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
+      if (!std::isfinite(sums[0]))
+        check_finite(); // names the cell and throws
+      if (pass == 0)
+        scale[m] = std::sqrt(sums[0]);
+      if (scale[m] == 0)
+        continue;
+      const double size = std::sqrt(sums[1]) / scale[m];
+      if (!once && size <= numerics.viscous_tolerance)
+        continue;
+      good = false;
+      const double enough =
+          once ? numerics.viscous_tolerance : std::max(numerics.viscous_tolerance, 0.05 * size);
+      report.viscous_iterations = std::max(
+          report.viscous_iterations,
+          diffusion_solver.solve(component(m), inertia, conductance, defect, scale[m], enough));
     }
-    MPI_Allreduce(MPI_IN_PLACE, &scale, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
-    if (!std::isfinite(scale))
-      check_finite(); // names the cell and throws
-    if (scale > 0)
-      report.viscous_iterations =
-          std::max(report.viscous_iterations,
-                   diffusion_solver.solve(component(m), inertia, conductance, defect,
-                                          std::sqrt(scale), numerics.viscous_tolerance));
+    if (once || good)
+      return;
   }
-  // The friction that is applied is the divergence of what the solver arrived at, so momentum
-  // closes whatever the solver's tolerance.
+  throw NumericalError("momentum equation: friction did not converge in " +
+                       std::to_string(most_passes) +
+                       " passes: the mesh is too far from orthogonal for this time step");
+}
+
+/// The friction that is applied is the divergence of what the solver arrived at, so momentum
+/// closes whatever the solver's tolerance.
+void GasSolver::Impl::add_new_friction(double new_time) {
   halo.exchange(u);
   boundaries.fill_velocity(u, eps_middle, new_time);
-  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
-    const Block& block = mesh.local[b];
-    for (std::size_t m = 0; m < 3; ++m) {
-      diffusion(block.layout, conductance[b], u[b][m], spread[b]);
+  update_velocity_gradient();
+  for (std::size_t m = 0; m < 3; ++m) {
+    boundary_friction[int(m)] +=
+        0.5 * viscous_force(m, [&](std::size_t b) -> Field& { return spread[b]; });
+    for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+      const Block& block = mesh.local[b];
       for_cells(block.layout,
                 [&](std::ptrdiff_t c) { r[b][m][c] += 0.5 * spread[b][c] / block.volume[c]; });
     }

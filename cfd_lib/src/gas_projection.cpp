@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/face_sum.hpp>
+
+#include "block_geometry.hpp"
 
 namespace granflux::cfd {
 
@@ -34,22 +37,17 @@ void GasSolver::Impl::make_solvable() {
     });
 }
 
-/// Pressure equation and correction: from a, r, share and the void fraction's rate to fluxes,
-/// pressure and velocity that satisfy continuity.
-void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchange* exchange,
-                              StepReport& report) {
+/// Fluxes with the pressure as it is, and the coefficients and the right-hand side of the equation
+/// for its increment. The momentum equation itself is interpolated, so resistances add up in
+/// series.
+void GasSolver::Impl::interpolate_momentum(double new_time, Drive drive) {
   const Vec3 driving = drive == Drive::given ? fluid.driving_pressure_gradient : Vec3{};
-  halo.exchange({&a, &share});
-  halo.exchange(r);
-  boundaries.fill_zero_gradient(a);
-  boundaries.fill_zero_gradient(share);
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
     for (std::size_t d = 0; d < 3; ++d) {
       const std::ptrdiff_t s = block.layout.stride[d];
       const Field& w = block.weight[d];
       for_faces(block.layout, int(d), [&, s](std::ptrdiff_t f) {
-        // The momentum equation itself is interpolated, so resistances add up in series.
         const double eps_f = on_face(eps_middle[b], w, f, s), share_f = on_face(share[b], w, f, s);
         const double mobility = eps_f / on_face(a[b], w, f, s);
         double carried = 0;
@@ -58,6 +56,13 @@ void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchan
         const double coefficient = mobility * share_f * block.conductance[d][f];
         flux[b][d][f] = mobility * carried - coefficient * (p[b][f] - p[b][f - s]);
         system.coefficient[b][d][f] = coefficient;
+        if (!block.skew)
+          return;
+        flux[b][d][f] -=
+            mobility * share_f * along(block.skew->cross[d], pressure_slope[b], w, f, s);
+        for (std::size_t m = 0; m < 3; ++m) // from where the interpolation is to the face's centre
+          flux[b][d][f] += eps_f * block.area[d][m][f] *
+                           along(block.skew->offset[d], velocity_gradient[m][b], w, f, s);
       });
     }
   }
@@ -78,6 +83,9 @@ void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchan
         coefficient = 2 * mobility * share[b][c] * block.conductance[d][face.face];
         const double outside = drive == Drive::given ? condition.pressure : 0;
         f -= patch.outward * coefficient * (outside - p[b][c]);
+        if (block.skew)
+          f -= mobility * share[b][c] *
+               dot(get(block.skew->cross[d], face.face), get(pressure_slope[b], c));
       } else {
         const Vec3 velocity = condition.kind == BoundaryKind::inlet
                                   ? boundaries.velocity(patch, face, new_time)
@@ -92,12 +100,13 @@ void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchan
   double squares = 0; // of the gross fluxes, whose rounding is all that a steady state leaves
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
+    const FaceSum net(block.layout, flux[b]);
     const auto [si, sj, sk] = block.layout.stride;
     const auto& [fi, fj, fk] = flux[b];
     squares += sum_cells(block.layout, [&, si = si, sj = sj, sk = sk, &fi = fi, &fj = fj,
                                         &fk = fk](std::ptrdiff_t c) {
       const double stored = block.volume[c] * eps_rate[b][c];
-      system.rhs[b][c] = fi[c + si] - fi[c] + fj[c + sj] - fj[c] + fk[c + sk] - fk[c] + stored;
+      system.rhs[b][c] = net(c) + stored;
       const double gross = std::abs(fi[c + si]) + std::abs(fi[c]) + std::abs(fj[c + sj]) +
                            std::abs(fj[c]) + std::abs(fk[c + sk]) + std::abs(fk[c]) +
                            std::abs(stored);
@@ -108,33 +117,46 @@ void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchan
   system.scale = std::sqrt(squares);
   if (!boundaries.has_outlet())
     make_solvable();
+}
 
-  BlockFields& increment = defect; // free again: its work was done in predict()
-  const PressureReport solved = pressure_solver->solve(system, increment);
-  report.pressure_iterations = solved.iterations;
-  report.pressure_residual = solved.residual;
-  halo.exchange({&increment});
-  for (const BoundaryPatch& patch : boundaries.patches()) {
-    const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
-    for (const BoundaryFace& face : patch.faces) {
-      double& coefficient = system.coefficient[b][d][face.face];
-      flux[b][d][face.face] += patch.outward * coefficient * increment[b][face.cell];
-      coefficient = 0; // done: the sweep below is for interior faces
+/// Pressure equation and correction: from a, r, share and the void fraction's rate to fluxes,
+/// pressure and velocity that satisfy continuity.
+void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchange* exchange,
+                              StepReport& report) {
+  halo.exchange({&a, &share});
+  halo.exchange(r);
+  boundaries.fill_zero_gradient(a);
+  boundaries.fill_zero_gradient(share);
+  const int corrections = mesh.orthogonal ? 0 : numerics.pressure_corrections;
+  for (int pass = 0; pass <= corrections; ++pass) {
+    interpolate_momentum(new_time, drive);
+    BlockFields& increment = defect; // free again: its work was done in predict()
+    const PressureReport solved = pressure_solver->solve(system, increment);
+    report.pressure_iterations += solved.iterations;
+    report.pressure_residual = solved.residual;
+    halo.exchange({&increment});
+    for (const BoundaryPatch& patch : boundaries.patches()) {
+      const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
+      for (const BoundaryFace& face : patch.faces) {
+        double& coefficient = system.coefficient[b][d][face.face];
+        flux[b][d][face.face] += patch.outward * coefficient * increment[b][face.cell];
+        coefficient = 0; // done: the sweep below is for interior faces
+      }
     }
-  }
-  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
-    const Block& block = mesh.local[b];
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::ptrdiff_t s = block.layout.stride[d];
-      for_faces(block.layout, int(d), [&, s](std::ptrdiff_t f) {
-        flux[b][d][f] -= system.coefficient[b][d][f] * (increment[b][f] - increment[b][f - s]);
-      });
+    for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+      const Block& block = mesh.local[b];
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::ptrdiff_t s = block.layout.stride[d];
+        for_faces(block.layout, int(d), [&, s](std::ptrdiff_t f) {
+          flux[b][d][f] -= system.coefficient[b][d][f] * (increment[b][f] - increment[b][f - s]);
+        });
+      }
+      for_cells(block.layout, [&](std::ptrdiff_t c) { p[b][c] += increment[b][c]; });
     }
-    for_cells(block.layout, [&](std::ptrdiff_t c) { p[b][c] += increment[b][c]; });
+    if (exchange)
+      set_drag_slope(*exchange);
+    set_pressure_gradient(drive);
   }
-  if (exchange)
-    set_drag_slope(*exchange);
-  set_pressure_gradient(drive);
 
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     for (std::size_t m = 0; m < 3; ++m)
@@ -159,10 +181,12 @@ void GasSolver::Impl::set_drag_slope(const MomentumExchange& exchange) {
         const auto add = [&](std::ptrdiff_t f, double outward, std::ptrdiff_t neighbour,
                              double share_of_way) {
           const double through = outward * flux[b][d][f] /
-                                 on_face(eps_middle[b], block.weight[d], f, s) * share_of_way /
-                                 block.volume[c];
+                                 on_face(eps_middle[b], block.weight[d], f, s) / block.volume[c];
+          const double to_face = share_of_way * through;
           for (std::size_t m = 0; m < 3; ++m)
-            velocity[int(m)] += through * (block.centre[m][neighbour] - block.centre[m][c]);
+            velocity[int(m)] += to_face * (block.centre[m][neighbour] - block.centre[m][c]);
+          if (block.skew)
+            velocity += through * get(block.skew->offset[d], f);
         };
         add(c, -1, c - s, 1 - block.weight[d][c]);
         add(c + s, 1, c + s, block.weight[d][c + s]);
@@ -183,6 +207,12 @@ void GasSolver::Impl::set_drag_slope(const MomentumExchange& exchange) {
 void GasSolver::Impl::set_pressure_gradient(Drive drive) {
   halo.exchange({&p});
   boundaries.fill_pressure(p, drag_slope, drive == Drive::given);
+  if (!mesh.orthogonal) {
+    const FieldOf pressure = [this](std::size_t b) -> const Field& { return p[b]; };
+    gradient(mesh, halo, boundaries, pressure, pressure_slope);
+    boundaries.move_pressure_ghosts(p, pressure_slope);
+    gradient(mesh, halo, boundaries, pressure, pressure_slope);
+  }
   const Vec3 driving = drive == Drive::given ? fluid.driving_pressure_gradient : Vec3{};
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
@@ -196,7 +226,10 @@ void GasSolver::Impl::set_pressure_gradient(Drive drive) {
         double jump = 0; // (slope below - slope above) . (way from centre to centre)
         for (std::size_t m = 0; m < 3; ++m)
           jump += (slope[m][f - s] - slope[m][f]) * (block.centre[m][f] - block.centre[m][f - s]);
-        return on_face(p[b], block.weight[d], f, s) + w * (1 - w) * jump;
+        double value = on_face(p[b], block.weight[d], f, s) + w * (1 - w) * jump;
+        if (block.skew)
+          value += along(block.skew->offset[d], pressure_slope[b], block.weight[d], f, s);
+        return value;
       };
       const double low_i = face(0, c, si), high_i = face(0, c + si, si);
       const double low_j = face(1, c, sj), high_j = face(1, c + sj, sj);

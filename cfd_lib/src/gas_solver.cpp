@@ -43,6 +43,15 @@ GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     system.coefficient.push_back(
         {Field(mesh.local[b].layout), Field(mesh.local[b].layout), Field(mesh.local[b].layout)});
   system.rhs = make_fields(mesh);
+  if (numerics.time_scheme == TimeScheme::implicit)
+    implicit = std::make_unique<ImplicitMomentum>(
+        ImplicitMomentum{{m, halo, boundaries}, make_vectors(m), make_vectors(m), make_vectors(m)});
+  if (!mesh.orthogonal || fluid.smagorinsky > 0)
+    velocity_gradient.fill(make_vectors(m));
+  if (!mesh.orthogonal)
+    pressure_slope = make_vectors(m);
+  if (fluid.smagorinsky > 0)
+    eddy_viscosity = make_fields(m);
   if (c.energy)
     energy = std::make_unique<EnergyEquation>(m, halo, boundaries, fluid, *c.energy, numerics);
 }
@@ -128,7 +137,10 @@ void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors&
   s.boundaries.fill_zero_gradient(s.eps_middle);
   s.p = make_fields(s.mesh);
   s.drag_slope = make_vectors(s.mesh);
-  s.r = velocity;
+  s.r = s.u = velocity;
+  s.halo.exchange(s.u);
+  s.boundaries.fill_velocity(s.u, s.eps_middle, time);
+  s.update_velocity_gradient();
   s.a = s.share = make_fields(s.mesh, 1);
   StepReport report;
   s.project(time, Drive::none, nullptr, report);
@@ -149,26 +161,24 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   StepReport report;
   const double new_time = s.time + dt;
   const double ratio = s.has_history ? dt / s.dt_old : 0;
-  s.ab_now = 1 + 0.5 * ratio;
-  s.ab_old = -0.5 * ratio;
+  s.ab_now = s.implicit ? 0.5 : 1 + 0.5 * ratio;
+  s.ab_old = s.implicit ? 0 : -0.5 * ratio;
 
   const Vec3 old_momentum = s.momentum();
-  s.convect_momentum();
+  s.update_velocity_gradient();
+  if (!s.implicit) {
+    std::swap(s.convection, s.convection_old);
+    s.outflow_old = s.outflow;
+  }
+  s.outflow = s.convect_momentum(s.convection);
   for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
     for (std::size_t m = 0; m < 3; ++m)
       for_cells(s.mesh.local[b].layout, [&](std::ptrdiff_t c) {
         s.r[b][m][c] = s.fluid.density / dt * s.eps_inertia[b][c] * s.u[b][m][c];
       });
-  s.extrapolate_inertia(dt);
-  double lightest =
-      s.max(-1, [&](std::size_t b, std::ptrdiff_t c) { return -s.eps_inertia[b][c]; });
-  MPI_Allreduce(MPI_IN_PLACE, &lightest, 1, MPI_DOUBLE, MPI_MAX, s.mesh.comm);
-  if (lightest >= 0) {
-    report.history_restarted = true;
-    s.eps_inertia = s.eps;
-    s.ab_now = 1;
-    s.ab_old = 0;
-  }
+  const BlockFields eps_start = s.eps;
+  if (!s.implicit)
+    s.move_inertia(dt, s.ab_now, s.eps_rate_old, s.ab_old);
   if (s.energy)
     s.energy->begin(s.eps);
   std::swap(s.eps_rate, s.eps_rate_old);
@@ -179,19 +189,35 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
       s.eps_middle[b][c] = 0.5 * (void_fraction[b][c] + s.eps[b][c]);
       s.eps[b][c] = void_fraction[b][c];
     });
+  if (s.implicit)
+    s.move_inertia(dt, s.ab_now, s.eps_rate, 1 - s.ab_now);
+  double lightest =
+      s.max(-1, [&](std::size_t b, std::ptrdiff_t c) { return -s.eps_inertia[b][c]; });
+  MPI_Allreduce(MPI_IN_PLACE, &lightest, 1, MPI_DOUBLE, MPI_MAX, s.mesh.comm);
+  if (lightest >= 0) {
+    report.history_restarted = true;
+    s.eps_inertia = eps_start;
+    if (!s.implicit)
+      s.ab_now = 1, s.ab_old = 0;
+  }
   s.halo.exchange({&s.eps_middle});
   s.boundaries.fill_zero_gradient(s.eps_middle);
   s.set_conductance();
   s.add_thermal_buoyancy();
 
-  Vec3 friction = 0.5 * s.boundary_friction();
-  s.predict(dt, exchange, new_time, report);
-  friction += 0.5 * s.boundary_friction();
-  s.project(new_time, Drive::given, exchange, report);
+  s.begin_momentum(dt, exchange);
+  if (s.implicit) {
+    s.iterate_implicit(new_time, exchange, report);
+  } else {
+    s.predict(new_time, report);
+    s.add_new_friction(new_time);
+    s.project(new_time, Drive::given, exchange, report);
+  }
   s.check_finite();
-  s.take_balance(dt, exchange, friction, old_momentum);
+  s.take_balance(dt, exchange, old_momentum);
   if (s.energy)
-    s.energy->advance(dt, ratio, s.flux, s.eps, s.eps_middle, heat, s.face_work, s.balance);
+    s.energy->advance(dt, ratio, s.flux, s.eps, s.eps_middle, s.eddy_viscosity, heat, s.face_work,
+                      s.balance);
 
   s.measure(dt, report);
   s.time = new_time;

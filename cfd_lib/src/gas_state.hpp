@@ -9,9 +9,11 @@
 #include <granflux/cfd/boundary.hpp>
 #include <granflux/cfd/diffusion_solver.hpp>
 #include <granflux/cfd/gas_solver.hpp>
+#include <granflux/cfd/gradient.hpp>
 #include <granflux/cfd/halo.hpp>
 #include <granflux/cfd/pressure_solver.hpp>
 #include <granflux/cfd/sweep.hpp>
+#include <granflux/cfd/transport_solver.hpp>
 
 #include "convection_sweep.hpp"
 #include "energy.hpp"
@@ -30,26 +32,37 @@ inline double on_face(const Field& q, const Field& weight, std::ptrdiff_t f,
 /// Whether given pressures (outlets, driving gradient) act, or, for the initial projection, not.
 enum class Drive { none, given };
 
+/// What the implicit scheme alone needs.
+struct ImplicitMomentum {
+  TransportSolver solver;
+  BlockVectors fixed; ///< right-hand side without the pressure and the new velocity's terms [N/m3]
+  BlockVectors convection, defect; ///< at the new time, of each cell [N]
+};
+
 /// State of the gas and the parts of its step, each in a file of its own: gas_convection.cpp,
-/// gas_predictor.cpp, gas_projection.cpp, gas_balance.cpp.
+/// gas_friction.cpp, gas_predictor.cpp, gas_implicit.cpp, gas_projection.cpp, gas_balance.cpp.
 struct GasSolver::Impl {
   Impl(const Mesh& mesh, const GasCase& gas_case);
 
   // The step, in order.
-  void extrapolate_inertia(double dt);
-  void convect_momentum();
+  void update_velocity_gradient();
+  void move_inertia(double dt, double of_last, const BlockFields& other, double of_other);
+  Vec3 convect_momentum(BlockVectors& out);
   void add_thermal_buoyancy();
   void set_conductance();
-  Vec3 boundary_friction() const;
+  double viscous_force(std::size_t m, const std::function<Field&(std::size_t)>& out);
   DiffusionSolver::Unknown component(std::size_t m);
-  void predict(double dt, const MomentumExchange* exchange, double new_time, StepReport& report);
+  void begin_momentum(double dt, const MomentumExchange* exchange);
+  void predict(double new_time, StepReport& report);
+  void add_new_friction(double new_time);
+  void iterate_implicit(double new_time, const MomentumExchange* exchange, StepReport& report);
   void project(double new_time, Drive drive, const MomentumExchange* exchange, StepReport& report);
+  void interpolate_momentum(double new_time, Drive drive);
   void make_solvable();
   void set_drag_slope(const MomentumExchange& exchange);
   void set_pressure_gradient(Drive drive);
   void check_finite() const;
-  void take_balance(double dt, const MomentumExchange* exchange, const Vec3& friction_force,
-                    const Vec3& old_momentum);
+  void take_balance(double dt, const MomentumExchange* exchange, const Vec3& old_momentum);
 
   [[nodiscard]] Vec3 momentum() const;
   [[nodiscard]] std::string cell_name(std::int64_t encoded) const;
@@ -76,6 +89,7 @@ struct GasSolver::Impl {
   Halo halo;
   Boundaries boundaries;
   DiffusionSolver diffusion_solver;
+  std::unique_ptr<ImplicitMomentum> implicit; ///< only where the case asks for it
   std::unique_ptr<PressureSolver> pressure_solver;
 
   double time = 0, dt_old = 0;
@@ -96,9 +110,15 @@ struct GasSolver::Impl {
   BlockVectors convection, convection_old; ///< momentum leaving each cell [N]
   Vec3 outflow, outflow_old;               ///< of it, through the boundaries [N]
   BlockVectors friction;                   ///< viscous force on each cell for the old velocity [N]
-  BlockFields a;                           ///< kg/(m3 s)
-  BlockVectors r;                          ///< N/m3
-  BlockFields share;                       ///< of the pressure gradient that the gas bears
+  /// Of the step, on this rank's gas: friction in, momentum out through boundaries [N].
+  Vec3 boundary_friction, boundary_convection;
+  /// Of each component, where the mesh is not orthogonal or eddies are modelled.
+  std::array<BlockVectors, 3> velocity_gradient;
+  BlockVectors pressure_slope; ///< gradient of p by the same rule, on meshes not orthogonal [Pa/m]
+  BlockFields eddy_viscosity;  ///< Pa s; empty where not modelled
+  BlockFields a;               ///< kg/(m3 s)
+  BlockVectors r;              ///< N/m3
+  BlockFields share;           ///< of the pressure gradient that the gas bears
   BlockFields inertia, defect;
   BlockFields spread; ///< viscous force on each cell, one component of the new velocity [N]
   FaceFields face_work, conductance;

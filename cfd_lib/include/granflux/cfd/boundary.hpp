@@ -53,6 +53,9 @@ public:
   /// Ghosts of the pressure: outlet value (0 if not `with_given`), else continued from inside,
   /// linearly but for the part of the gradient that balances drag, which may jump between cells.
   void fill_pressure(BlockFields& pressure, const BlockVectors& drag_slope, bool with_given) const;
+  /// Corrects these ghosts, but those of outlets, where their centres are not on the line that the
+  /// pressure was continued along. `slope`: gradient of the pressure in the cells [Pa/m].
+  void move_pressure_ghosts(BlockFields& pressure, const BlockVectors& slope) const;
   /// Ghosts of the temperature. `conductance`: k eps_f |S|^2/(S.dx) on low faces [W/K].
   void fill_temperature(BlockFields& temperature,
                         const std::vector<std::array<Field, 3>>& conductance) const;

@@ -20,6 +20,8 @@ struct Fluid {
   Vec3 gravity{};
   bool gravity_given = false;       ///< false: a host may supply its own
   Vec3 driving_pressure_gradient{}; ///< imposed mean of grad p [Pa/m], for periodic directions
+  /// Smagorinsky's constant; 0: no eddy viscosity.
+  double smagorinsky = 0;
 };
 
 /// Temperature of the gas, with constant properties.
@@ -41,9 +43,11 @@ struct BoundaryCondition {
   /// the profile. Wall: velocity of the wall, tangential [m/s].
   Vec3 velocity{};
   enum class Profile { uniform, parabolic } profile = Profile::uniform;
-  double ramp_time = 0; ///< s; the inlet velocity grows linearly from ramp_from * velocity
-  double ramp_from = 0; ///< share of the velocity at time 0
-  double pressure = 0;  ///< outlet: dynamic pressure at the face [Pa]
+  double ramp_time = 0;    ///< s; the inlet velocity grows linearly from ramp_from * velocity
+  double ramp_from = 0;    ///< share of the velocity at time 0
+  double pressure = 0;     ///< outlet: dynamic pressure at the face [Pa]
+  Vec3 angular_velocity{}; ///< wall: turns about an axis through `centre` [rad/s]
+  Vec3 centre{};           ///< m
   enum class Heat { adiabatic, temperature, flux } heat = Heat::adiabatic;
   /// Inlet, or wall of given temperature; outlet: of gas that flows back [K].
   double temperature = 293.15;
@@ -52,12 +56,24 @@ struct BoundaryCondition {
 
 enum class ConvectionScheme { central, upwind2, limited };
 
+enum class TimeScheme {
+  semi_implicit, ///< Adams-Bashforth for convection, Crank-Nicolson for diffusion
+  implicit       ///< Crank-Nicolson for both, iterated with the pressure to convergence
+};
+
 struct Numerics {
   ConvectionScheme convection = ConvectionScheme::limited;
+  TimeScheme time_scheme = TimeScheme::semi_implicit;
+  /// Implicit scheme: remaining defect of the momentum equation, relative to its terms.
+  double implicit_tolerance = 1e-8;
+  /// Further pressure solutions a step that bring the non-orthogonal part of the pressure's
+  /// gradient up to date; it is one step old otherwise. Orthogonal meshes need none.
+  int pressure_corrections = 0;
   PressureMethod pressure_solver = PressureMethod::automatic;
   double pressure_tolerance = 1e-10; ///< of the residual, relative to the right-hand side
   double viscous_tolerance = 1e-10;
-  double time_step = 0; ///< s; for a run without particles
+  double time_step = 0; ///< s; for a run without particles: the largest, where courant is given
+  double courant = 0;   ///< likewise: the time step follows this Courant number; 0: it is fixed
   double end_time = 0;  ///< s; likewise
 };
 

@@ -58,6 +58,7 @@ struct StepReport {
   int pressure_iterations = 0;    ///< 0 for a direct solve
   double pressure_residual = 0;   ///< relative
   int viscous_iterations = 0;     ///< most of the three components
+  int outer_iterations = 0;       ///< of the implicit scheme; 0 for the semi-implicit one
   double courant = 0;             ///< largest, by face fluxes and void fraction
   /// The void fraction jumped so far that extrapolating it would have left the gas without
   /// inertia somewhere: the time history was begun anew (first order for this one step).
