@@ -15,7 +15,9 @@
 #include <mpi.h>
 #include <omp.h>
 
+#include <granflux/cfd/case_mesh.hpp>
 #include <granflux/cfd/cgns_writer.hpp>
+#include <granflux/cfd/deal_blocks.hpp>
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/gas_solver.hpp>
 #include <granflux/cfd/read_gas_case.hpp>
@@ -101,13 +103,29 @@ std::string text_of(const Vec3& v) {
   return fmt::format("{:>12.4e} {:>12.4e} {:>12.4e}", v.x, v.y, v.z);
 }
 
+std::int64_t cells_of(const Mesh& mesh) {
+  std::int64_t cells = 0;
+  for (const BlockInfo& info : mesh.blocks)
+    cells += cell_count(info.cells);
+  return cells;
+}
+
+std::string size_of(const Mesh& mesh) {
+  if (!mesh.lattice)
+    return fmt::format("{} cells", cells_of(mesh));
+  const Index3 n = mesh.lattice->cells();
+  return fmt::format("{} x {} x {} cells", n[0], n[1], n[2]);
+}
+
 void print_banner(const Mesh& mesh, const GasCase& gas_case, const std::string& file, long steps) {
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
-  const Index3 n = mesh.lattice->cells();
   fmt::print("granflux_cfd {} ({}, {})\n", version, revision, compiler);
-  fmt::print("case {}: {} x {} x {} cells in {} blocks, {} ranks x {} threads\n", file, n[0], n[1],
-             n[2], mesh.blocks.size(), ranks, omp_get_max_threads());
+  fmt::print("case {}: {} in {} blocks, {} ranks x {} threads", file, size_of(mesh),
+             mesh.blocks.size(), ranks, omp_get_max_threads());
+  if (ranks > 1)
+    fmt::print(", largest load {:.2f} of the mean", imbalance(mesh));
+  fmt::print("\n");
   fmt::print("{} steps of {:.6g} s to t = {:.6g} s\n\n", steps,
              gas_case.numerics.end_time / double(steps), gas_case.numerics.end_time);
   std::fflush(stdout);
@@ -147,7 +165,6 @@ void print_times(Seconds seconds, const GasSolver& gas, bool prints) {
   MPI_Allreduce(MPI_IN_PLACE, &seconds, 3, MPI_DOUBLE, MPI_MAX, gas.mesh().comm);
   if (!prints)
     return;
-  const Index3 n = gas.mesh().lattice->cells();
   const double total = seconds.set_up + seconds.gas + seconds.output;
   fmt::print("\n{:<24} {:>10} {:>7}\n", "part", "seconds", "share");
   for (const auto& [name, value] :
@@ -155,7 +172,7 @@ void print_times(Seconds seconds, const GasSolver& gas, bool prints) {
         std::pair{"output", seconds.output}, std::pair{"total", total}})
     fmt::print("{:<24} {:>10.3f} {:>6.1f}%\n", name, value, 100 * value / total);
   fmt::print("{:<24} {:>10.1f} ns per cell and step\n", "gas",
-             1e9 * seconds.gas / (double(n[0]) * n[1] * n[2] * double(gas.steps())));
+             1e9 * seconds.gas / (double(cells_of(gas.mesh())) * double(gas.steps())));
 }
 
 void run(const Options& options, MPI_Comm comm, bool prints) {
@@ -165,9 +182,8 @@ void run(const Options& options, MPI_Comm comm, bool prints) {
   const long steps = count_steps(gas_case.numerics, file);
   const double dt = gas_case.numerics.end_time / double(steps);
 
-  const Mesh mesh = timed(seconds.set_up, [&] {
-    return naming_file(file, [&] { return make_box_mesh(gas_case.grid, comm); });
-  });
+  const Mesh mesh = timed(
+      seconds.set_up, [&] { return naming_file(file, [&] { return make_mesh(gas_case, comm); }); });
   if (prints)
     print_banner(mesh, gas_case, file, steps);
   FieldOutput output = naming_file(file, [&] { return FieldOutput(mesh, gas_case.output); });

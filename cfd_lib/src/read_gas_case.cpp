@@ -3,62 +3,18 @@
 #include <granflux/cfd/read_gas_case.hpp>
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
 
 #include <granflux/cfd/error.hpp>
+
+#include "read_grid.hpp"
 
 namespace granflux::cfd {
 
 namespace {
 
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr int most_cells = 1'000'000; ///< along one direction
 
-void read_uniform_box(const CaseTable& table, BoxGrid& grid) {
-  const Vec3 origin = table.vector("origin", Vec3{}, any_number, "m");
-  const Vec3 size = table.vector("size", positive, "m");
-  const Index3 cells = table.integers("cells", 1, most_cells);
-  for (int d = 0; d < 3; ++d)
-    grid.nodes[std::size_t(d)] = uniform_nodes(origin[d], size[d], cells[std::size_t(d)]);
-}
-
-void read_stretched_box(const CaseTable& table, BoxGrid& grid) {
-  for (const char* key : {"origin", "size", "cells"})
-    table.refuse(key, "nodes_x, nodes_y and nodes_z take its place");
-  for (std::size_t d = 0; d < 3; ++d) {
-    const std::string key = std::string("nodes_") + axis_names[d];
-    grid.nodes[d] = table.numbers(key, 2, any_number, "m");
-    const auto& nodes = grid.nodes[d];
-    if (!std::is_sorted(nodes.begin(), nodes.end(), std::less_equal<>()))
-      table.fail(key, "node coordinates that increase from each to the next (m)");
-  }
-}
-
-BoxGrid read_grid(const CaseTable& table) {
-  BoxGrid grid;
-  (void)table.word("kind", "box", {"box"});
-  const bool stretched = std::any_of(axis_names.begin(), axis_names.end(), [&](const char* axis) {
-    return table.has(std::string("nodes_") + axis);
-  });
-  if (stretched)
-    read_stretched_box(table, grid);
-  else
-    read_uniform_box(table, grid);
-
-  std::int64_t cells = 1;
-  for (const auto& nodes : grid.nodes)
-    cells *= std::int64_t(nodes.size()) - 1;
-  if (cells > std::numeric_limits<std::int32_t>::max())
-    table.fail(stretched ? "nodes_x" : "cells", "at most 2147483647 cells in all");
-
-  grid.periodic = table.flags("periodic", {false, false, false});
-  if (table.has("blocks"))
-    grid.blocks = table.integers("blocks", 1, most_cells);
-  return grid;
-}
-
-Fluid read_fluid(const CaseTable& table, const BoxGrid& grid) {
+Fluid read_fluid(const CaseTable& table, const GridDescription& grid) {
   Fluid fluid;
   fluid.density = table.number("density", positive, "kg/m3");
   fluid.viscosity = table.number("viscosity", positive, "Pa s");
@@ -66,8 +22,9 @@ Fluid read_fluid(const CaseTable& table, const BoxGrid& grid) {
   fluid.gravity = table.vector("gravity", Vec3{}, any_number, "m/s2");
   fluid.driving_pressure_gradient =
       table.vector("driving_pressure_gradient", Vec3{}, any_number, "Pa/m");
+  const auto* box = std::get_if<BoxGrid>(&grid); // of others make_mesh knows which way they close
   for (int d = 0; d < 3; ++d)
-    if (fluid.driving_pressure_gradient[d] != 0 && !grid.periodic[std::size_t(d)])
+    if (fluid.driving_pressure_gradient[d] != 0 && box && !box->periodic[std::size_t(d)])
       table.fail("driving_pressure_gradient",
                  std::string("0 along ") + axis_names[std::size_t(d)] +
                      ", which is not periodic: there, boundaries drive the flow (Pa/m)");
@@ -118,27 +75,10 @@ void read_heat(const CaseTable& table, const std::optional<Energy>& energy,
   }
 }
 
-BoxPatch read_patch(const CaseTable& table) {
-  BoxPatch patch;
-  patch.name = table.text("name");
-  patch.side = table.choice<Side>("side", {{"x_low", {0, false}},
-                                           {"x_high", {0, true}},
-                                           {"y_low", {1, false}},
-                                           {"y_high", {1, true}},
-                                           {"z_low", {2, false}},
-                                           {"z_high", {2, true}}});
-  patch.from = table.vector("from", patch.from, any_number, "m");
-  patch.to = table.vector("to", patch.to, any_number, "m");
-  for (int d = 0; d < 3; ++d)
-    if (d != patch.side.direction && patch.to[d] < patch.from[d])
-      table.fail("to", "not below `from` along " + std::string(axis_names[std::size_t(d)]));
-  return patch;
-}
-
-void read_inlet(const CaseTable& table, const Side& side, BoundaryCondition& condition) {
+void read_inlet(const CaseTable& table, const std::optional<Side>& side,
+                BoundaryCondition& condition) {
   condition.velocity = table.vector("velocity", any_number, "m/s");
-  const double inward = condition.velocity[side.direction] * (side.high ? -1 : 1);
-  if (inward < 0)
+  if (side && condition.velocity[side->direction] * (side->high ? -1 : 1) < 0)
     table.fail("velocity", "directed into the box: gas leaves through an outlet (m/s)");
   condition.profile = table.choice<BoundaryCondition::Profile>(
       "profile", BoundaryCondition::Profile::uniform,
@@ -150,10 +90,11 @@ void read_inlet(const CaseTable& table, const Side& side, BoundaryCondition& con
   condition.ramp_from = table.number("ramp_from", 0.0, not_negative, "");
 }
 
-void read_wall(const CaseTable& table, const Side& side, BoundaryCondition& condition) {
+void read_wall(const CaseTable& table, const std::optional<Side>& side,
+               BoundaryCondition& condition) {
   condition.velocity = table.vector("velocity", Vec3{}, any_number, "m/s");
-  if (condition.velocity[side.direction] != 0)
-    table.fail("velocity", std::string("0 along ") + axis_names[std::size_t(side.direction)] +
+  if (side && condition.velocity[side->direction] != 0)
+    table.fail("velocity", std::string("0 along ") + axis_names[std::size_t(side->direction)] +
                                ": a wall moves in its own plane only (m/s)");
 }
 
@@ -168,18 +109,18 @@ void refuse_keys_of_others(const CaseTable& table, BoundaryKind kind) {
     table.refuse("pressure", "only an outlet has a pressure");
 }
 
-BoundaryCondition read_condition(const CaseTable& table, const BoxPatch& patch) {
+BoundaryCondition read_condition(const CaseTable& table, const BoundaryPlace& place) {
   BoundaryCondition condition;
-  condition.name = patch.name;
+  condition.name = place.name;
   condition.kind = table.choice<BoundaryKind>("type", {{"inlet", BoundaryKind::inlet},
                                                        {"outlet", BoundaryKind::outlet},
                                                        {"wall", BoundaryKind::wall},
                                                        {"slip", BoundaryKind::slip}});
   refuse_keys_of_others(table, condition.kind);
   if (condition.kind == BoundaryKind::inlet)
-    read_inlet(table, patch.side, condition);
+    read_inlet(table, place.side, condition);
   if (condition.kind == BoundaryKind::wall)
-    read_wall(table, patch.side, condition);
+    read_wall(table, place.side, condition);
   if (condition.kind == BoundaryKind::outlet)
     condition.pressure = table.number("pressure", 0.0, any_number, "Pa");
   return condition;
@@ -188,15 +129,12 @@ BoundaryCondition read_condition(const CaseTable& table, const BoxPatch& patch) 
 void read_boundaries(CaseFile& file, GasCase& gas_case) {
   bool outlet = false;
   for (const CaseTable& table : file.tables("boundary")) {
-    const BoxPatch patch = read_patch(table);
-    for (const BoxPatch& earlier : gas_case.grid.patches)
-      if (earlier.name == patch.name)
+    const BoundaryPlace place = read_boundary_place(table, gas_case.grid);
+    for (const BoundaryCondition& earlier : gas_case.boundaries)
+      if (earlier.name == place.name)
         table.fail("name", "a name of its own: another [[boundary]] has this one");
-    if (gas_case.grid.periodic[std::size_t(patch.side.direction)])
-      table.fail("side", "a side that [grid] periodic does not connect to the opposite one");
-    gas_case.boundaries.push_back(read_condition(table, patch));
+    gas_case.boundaries.push_back(read_condition(table, place));
     read_heat(table, gas_case.energy, gas_case.boundaries.back());
-    gas_case.grid.patches.push_back(patch);
     outlet = outlet || gas_case.boundaries.back().kind == BoundaryKind::outlet;
   }
   for (std::size_t b = 0; b < gas_case.boundaries.size(); ++b)
@@ -242,7 +180,7 @@ Output read_output(const CaseTable& table) {
 
 GasCase read_gas_case(CaseFile& file) {
   GasCase gas_case;
-  gas_case.grid = read_grid(file.table("grid"));
+  gas_case.grid = read_grid(file);
   gas_case.fluid = read_fluid(file.table("fluid"), gas_case.grid);
   gas_case.energy = read_energy(file);
   read_boundaries(file, gas_case);

@@ -97,18 +97,12 @@ std::string text(double x) {
   return out.str();
 }
 
-const cfd::Mesh& require_lattice(const cfd::Mesh& mesh) {
-  if (!mesh.lattice)
-    throw ConfigError("coupling: particles can be located on box grids only");
-  return mesh;
-}
-
 } // namespace
 
 struct Coupler::Impl {
   Impl(const cfd::GasCase& c, const CouplingOptions& o, MPI_Comm comm)
-      : gas_case(c), options(o), mesh(cfd::make_box_mesh(c.grid, comm)), halo(mesh), gas(mesh, c),
-        lattice(*require_lattice(mesh).lattice),
+      : gas_case(c), options(o), mesh(cfd::make_box_mesh(cfd::box_grid(c), comm)), halo(mesh),
+        gas(mesh, c), lattice(*mesh.lattice),
         kernel(VoidFractionKernels::make("void_fraction", o.void_fraction)),
         drag(DragLaws::make("drag", o.drag)), exchange(mesh), ledger(comm),
         momentum(cfd::make_exchange(mesh)), void_fraction(cfd::make_fields(mesh, 1)) {

@@ -177,7 +177,7 @@ std::unique_ptr<coupling::Coupler> FixCouple::make_coupler() const {
 /// Before the first run: the gas at its initial or restored state, the particles where they are.
 void FixCouple::begin() {
   if (!options_.any_box)
-    check_box(*lmp, gas_case_.grid, 2 * largest_radius(*lmp));
+    check_box(*lmp, cfd::box_grid(gas_case_), 2 * largest_radius(*lmp));
   if (const std::string note = settle_gravity(*lmp, gas_case_.fluid); !note.empty())
     say(fmt::format("granflux: {}\n", note));
 

@@ -78,13 +78,80 @@ every = 0.01
 drag = "gidaspow"
 )";
 
-/// The good case with one piece of its text replaced.
-inline std::string with(const std::string& old_text, const std::string& new_text) {
-  std::string text = good_case;
+/// The gap between a turning shaft and its bearing.
+inline const std::string annulus_case = R"([grid]
+kind = "annulus"
+axis = "x"
+origin = [0.1, 0.2, 0.3]
+inner_radius = 0.01
+outer_radius = 0.02
+length = 0.03
+cells = [4, 24, 2]
+start_angle = 15
+growth = 1.1
+periodic_axis = true
+
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+driving_pressure_gradient = [-1.0, 0.0, 0.0]
+
+[[boundary]]
+name = "inner"
+type = "wall"
+
+[[boundary]]
+name = "above"
+angles = [15, 195]
+type = "slip"
+
+[[boundary]]
+name = "below"
+angles = [-165, 15]
+type = "wall"
+)";
+
+/// A drum with an axis along z.
+inline const std::string cylinder_case = R"([grid]
+kind = "cylinder"
+radius = 0.0762
+length = 0.0762
+cells = [5, 10, 15]
+axial_blocks = 5
+core_radius = 0.6
+bulge = 0.25
+growth = 0.95
+
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+
+[[boundary]]
+name = "wall"
+type = "wall"
+
+[[boundary]]
+name = "low"
+type = "inlet"
+velocity = [0.0, 0.0, 1.0]
+
+[[boundary]]
+name = "high"
+type = "outlet"
+)";
+
+/// A text with one piece replaced.
+inline std::string replaced(std::string text, const std::string& old_text,
+                            const std::string& new_text) {
   const std::size_t at = text.find(old_text);
   if (at == std::string::npos)
-    throw std::logic_error("the good case has no \"" + old_text + "\"");
+    throw std::logic_error("the case has no \"" + old_text + "\"");
   return text.replace(at, old_text.size(), new_text);
+}
+
+/// The good case with one piece of its text replaced.
+inline std::string with(const std::string& old_text, const std::string& new_text) {
+  return replaced(good_case, old_text, new_text);
 }
 
 /// As granflux_cfd reads a file of that text.

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <vector>
 
-#include <granflux/cfd/box_mesh.hpp>
+#include <granflux/cfd/case_mesh.hpp>
 
 #include "expect_config_error.hpp"
 #include "gas_case_text.hpp"
@@ -24,7 +24,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 const std::vector<Mistake> mistakes{
     {"kind = \"box\"", "kind = \"sphere\"",
-     "bed.toml: [grid] kind = \"sphere\": must be one of \"box\""},
+     "bed.toml: [grid] kind = \"sphere\": must be one of \"box\", \"annulus\", \"cylinder\""},
     {"size = [0.044, 0.010, 0.120]\n", "",
      "bed.toml: [grid] size is missing: must be three numbers > 0 (m), as [x, y, z]"},
     {"size = [0.044, 0.010, 0.120]", "size = [0.044, 0.0, 0.120]",
@@ -156,16 +156,87 @@ TEST_P(BadGasCase, GivesTheMessage) {
 }
 INSTANTIATE_TEST_SUITE_P(Mistakes, BadGasCase, testing::ValuesIn(mistakes));
 
+namespace {
+
+/// One mistake in another case, found when it is read or when its mesh is made.
+struct RoundMistake {
+  std::string text, right, wrong, message;
+};
+void PrintTo(const RoundMistake& mistake, std::ostream* out) {
+  *out << mistake.wrong;
+}
+
+const std::vector<RoundMistake> round_mistakes{
+    {annulus_case, "inner_radius = 0.01", "inner_radius = 0.02",
+     "bed.toml: [grid] outer_radius = 0.02: must be larger than inner_radius (m)"},
+    {annulus_case, "axis = \"x\"", "axis = \"radial\"",
+     "bed.toml: [grid] axis = \"radial\": must be one of \"x\", \"y\", \"z\""},
+    {annulus_case, "cells = [4, 24, 2]", "cells = [4, 3, 2]",
+     "bed.toml: [grid] cells = [4, 3, 2]: must be more around: a cell must span less than 120 "
+     "degrees"},
+    {annulus_case, "growth = 1.1", "sweep = 400",
+     "bed.toml: [grid] sweep = 400: must be a number > 0 and <= 360 (degrees)"},
+    {annulus_case, "growth = 1.1", "size = [1, 1, 1]",
+     "bed.toml: [grid] size (line 10): unknown key; "},
+    {annulus_case, "angles = [15, 195]", "angles = [15, 10]",
+     "bed.toml: [[boundary]] 2 \"above\" angles = [15, 10]: must be two numbers, the second larger "
+     "by at most 360 (degrees)"},
+    {annulus_case, "angles = [15, 195]", "side = \"x_low\"",
+     "bed.toml: [[boundary]] 2 \"above\" side = \"x_low\": not allowed: only a box has sides; the "
+     "name is that of a boundary of the grid"},
+    {annulus_case, "angles = [15, 195]", "angles = [15, 30]",
+     "the outer circle has no boundary at 37.5 degrees: its arcs must cover it"},
+    {annulus_case, "angles = [15, 195]", "angles = [0, 195]",
+     "boundaries \"above\" and \"below\" overlap on the outer circle at 367.5 degrees: each face "
+     "takes one boundary"},
+    {annulus_case, "name = \"inner\"", "name = \"iner\"",
+     "[[boundary]] \"iner\": the grid has no boundary of that name; the grid's boundaries are: "
+     "inner, above, below"},
+    {annulus_case, "gradient = [-1.0, 0.0, 0.0]", "gradient = [0.0, -1.0, 0.0]",
+     "[fluid] driving_pressure_gradient: must be 0 along y, which is not periodic: there, "
+     "boundaries drive the flow (Pa/m)"},
+    {annulus_case, "periodic_axis = true", "periodic_axis = false",
+     "boundary \"low\" of the grid has no [[boundary]]; the grid's boundaries are: inner, above, "
+     "below, low, high"},
+    {cylinder_case, "cells = [5, 10, 15]", "cells = [5, 1, 15]",
+     "bed.toml: [grid] cells = [5, 1, 15]: must be at least 2 across the core"},
+    {cylinder_case, "axial_blocks = 5", "axial_blocks = 8",
+     "bed.toml: [grid] axial_blocks = 8: must be an integer from 1 to 7"},
+    {cylinder_case, "core_radius = 0.6", "core_radius = 1",
+     "bed.toml: [grid] core_radius = 1: must be a number > 0 and < 1 (share of the radius)"},
+    {cylinder_case, "bulge = 0.25", "bulge = 1",
+     "bed.toml: [grid] bulge = 1: must be a number >= 0 and < 1"},
+    {cylinder_case, "name = \"wall\"", "name = \"wall\"\nangles = [0, 90]",
+     "bed.toml: [[boundary]] 1 \"wall\" angles = [0, 90]: not allowed: only an annulus has arcs"},
+};
+
+class BadRoundGrid : public testing::TestWithParam<RoundMistake> {};
+
+} // namespace
+
+TEST_P(BadRoundGrid, GivesTheMessage) {
+  const RoundMistake& mistake = GetParam();
+  const std::string message = config_error([&] {
+    const GasCase c = gas_case_of(replaced(mistake.text, mistake.right, mistake.wrong));
+    (void)make_mesh(c, MPI_COMM_WORLD);
+  });
+  if (mistake.message.ends_with("; "))
+    EXPECT_TRUE(message.starts_with(mistake.message)) << message;
+  else
+    EXPECT_EQ(message, mistake.message);
+}
+INSTANTIATE_TEST_SUITE_P(Mistakes, BadRoundGrid, testing::ValuesIn(round_mistakes));
+
 TEST(BadPatches, OverlapIsRefusedByTheMesh) {
   const GasCase c = gas_case_of(good_case + "[[boundary]]\nname = \"jet\"\nside = \"z_low\"\n"
                                             "to = [0.011, 1, 0]\ntype = \"wall\"\n");
-  const auto message = config_error([&] { (void)make_box_mesh(c.grid, MPI_COMM_WORLD); });
+  const auto message = config_error([&] { (void)make_mesh(c, MPI_COMM_WORLD); });
   EXPECT_NE(message.find("\"bottom\" and \"jet\" overlap"), std::string::npos) << message;
 }
 
 TEST(BadPatches, AFaceWithoutABoundaryIsRefusedByTheMesh) {
   const GasCase c = gas_case_of(with("side = \"x_high\"", "side = \"x_high\"\nto = [1, 1, 0.06]"));
-  const auto message = config_error([&] { (void)make_box_mesh(c.grid, MPI_COMM_WORLD); });
+  const auto message = config_error([&] { (void)make_mesh(c, MPI_COMM_WORLD); });
   EXPECT_NE(message.find("side x_high: 12 faces have no boundary"), std::string::npos) << message;
 }
 

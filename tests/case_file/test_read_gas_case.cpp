@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-#include <granflux/cfd/box_mesh.hpp>
+#include <granflux/cfd/case_mesh.hpp>
 
 #include "gas_case_text.hpp"
 
@@ -14,11 +14,11 @@ using namespace granflux::test;
 
 TEST(ReadGasCase, TakesEveryKey) {
   const GasCase c = gas_case_of(good_case);
-  EXPECT_EQ(c.grid.nodes[0], uniform_nodes(0.0, 0.044, 8));
-  EXPECT_EQ(c.grid.nodes[1], uniform_nodes(0.0, 0.010, 2));
-  EXPECT_EQ(c.grid.nodes[2], uniform_nodes(0.0, 0.120, 12));
-  EXPECT_EQ(c.grid.periodic, (std::array<bool, 3>{false, true, false}));
-  EXPECT_EQ(c.grid.blocks, (Index3{1, 1, 2}));
+  EXPECT_EQ(box_grid(c).nodes[0], uniform_nodes(0.0, 0.044, 8));
+  EXPECT_EQ(box_grid(c).nodes[1], uniform_nodes(0.0, 0.010, 2));
+  EXPECT_EQ(box_grid(c).nodes[2], uniform_nodes(0.0, 0.120, 12));
+  EXPECT_EQ(box_grid(c).periodic, (std::array<bool, 3>{false, true, false}));
+  EXPECT_EQ(box_grid(c).blocks, (Index3{1, 1, 2}));
 
   EXPECT_EQ(c.fluid.density, 1.2);
   EXPECT_EQ(c.fluid.viscosity, 1.8e-5);
@@ -34,12 +34,12 @@ TEST(ReadGasCase, TakesEveryKey) {
   EXPECT_EQ(c.energy->reference_temperature, 300);
 
   ASSERT_EQ(c.boundaries.size(), 4u);
-  ASSERT_EQ(c.grid.patches.size(), 4u);
-  EXPECT_EQ(c.grid.patches[0].name, "bottom");
-  EXPECT_EQ(c.grid.patches[0].side, (Side{2, false}));
-  EXPECT_EQ(c.grid.patches[1].side, (Side{2, true}));
-  EXPECT_EQ(c.grid.patches[2].side, (Side{0, false}));
-  EXPECT_EQ(c.grid.patches[3].side, (Side{0, true}));
+  ASSERT_EQ(box_grid(c).patches.size(), 4u);
+  EXPECT_EQ(box_grid(c).patches[0].name, "bottom");
+  EXPECT_EQ(box_grid(c).patches[0].side, (Side{2, false}));
+  EXPECT_EQ(box_grid(c).patches[1].side, (Side{2, true}));
+  EXPECT_EQ(box_grid(c).patches[2].side, (Side{0, false}));
+  EXPECT_EQ(box_grid(c).patches[3].side, (Side{0, true}));
   const BoundaryCondition& inlet = c.boundaries[0];
   EXPECT_EQ(inlet.name, "bottom");
   EXPECT_EQ(inlet.kind, BoundaryKind::inlet);
@@ -75,8 +75,8 @@ TEST(ReadGasCase, LeavesDefaultsWhereKeysAreAbsent) {
                                 "periodic = [true, true, true]\n"
                                 "[fluid]\ndensity = 1\nviscosity = 1\n");
   const GasCase defaults;
-  EXPECT_EQ(c.grid.nodes[2].front(), 0.0);
-  EXPECT_EQ(c.grid.blocks, (Index3{0, 0, 0}));
+  EXPECT_EQ(box_grid(c).nodes[2].front(), 0.0);
+  EXPECT_EQ(box_grid(c).blocks, (Index3{0, 0, 0}));
   EXPECT_FALSE(c.fluid.gravity_given);
   EXPECT_TRUE(c.boundaries.empty());
   EXPECT_FALSE(c.energy);
@@ -91,25 +91,71 @@ TEST(ReadGasCase, TakesNodesOfAStretchedBox) {
                                      "cells = [8, 2, 12]",
                                      "nodes_x = [0, 0.1, 0.3]\nnodes_y = [-1, 1]\n"
                                      "nodes_z = [0.0, 0.5, 0.75, 2.0, 3.0]"));
-  EXPECT_EQ(c.grid.nodes[0], (std::vector<double>{0, 0.1, 0.3}));
-  EXPECT_EQ(c.grid.nodes[1], (std::vector<double>{-1, 1}));
-  EXPECT_EQ(c.grid.nodes[2], (std::vector<double>{0.0, 0.5, 0.75, 2.0, 3.0}));
+  EXPECT_EQ(box_grid(c).nodes[0], (std::vector<double>{0, 0.1, 0.3}));
+  EXPECT_EQ(box_grid(c).nodes[1], (std::vector<double>{-1, 1}));
+  EXPECT_EQ(box_grid(c).nodes[2], (std::vector<double>{0.0, 0.5, 0.75, 2.0, 3.0}));
 }
 
 TEST(ReadGasCase, MakesAMesh) {
   const GasCase c = gas_case_of(good_case);
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.blocks.size(), 2u);
   EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"bottom", "top", "left", "right"}));
+}
+
+TEST(ReadGasCase, TakesEveryKeyOfAnAnnulus) {
+  const GasCase c = gas_case_of(annulus_case);
+  const auto& a = std::get<AnnulusGrid>(c.grid);
+  EXPECT_EQ(a.frame.axis, 0);
+  EXPECT_EQ(a.frame.origin, (Vec3{0.1, 0.2, 0.3}));
+  EXPECT_EQ(a.inner_radius, 0.01);
+  EXPECT_EQ(a.outer_radius, 0.02);
+  EXPECT_EQ(a.length, 0.03);
+  EXPECT_EQ(a.radial, 4);
+  EXPECT_EQ(a.tangential, 24);
+  EXPECT_EQ(a.axial, 2);
+  EXPECT_EQ(a.start_angle, 15);
+  EXPECT_EQ(a.sweep, 360);
+  EXPECT_EQ(a.growth, 1.1);
+  EXPECT_TRUE(a.periodic_axis);
+  ASSERT_EQ(a.arcs.size(), 2u);
+  EXPECT_EQ(a.arcs[1].name, "below");
+  EXPECT_EQ(a.arcs[1].from, -165);
+  EXPECT_EQ(a.arcs[1].to, 15);
+  EXPECT_EQ(c.boundaries[1].kind, BoundaryKind::slip);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"inner", "above", "below"}));
+
+  const GasCase half = gas_case_of(replaced(annulus_case, "growth = 1.1", "sweep = 180"));
+  EXPECT_EQ(std::get<AnnulusGrid>(half.grid).sweep, 180);
+}
+
+TEST(ReadGasCase, TakesEveryKeyOfACylinder) {
+  const GasCase c = gas_case_of(cylinder_case);
+  const auto& cylinder = std::get<CylinderGrid>(c.grid);
+  EXPECT_EQ(cylinder.frame.axis, 2);
+  EXPECT_EQ(cylinder.radius, 0.0762);
+  EXPECT_EQ(cylinder.length, 0.0762);
+  EXPECT_EQ(cylinder.radial, 5);
+  EXPECT_EQ(cylinder.core, 10);
+  EXPECT_EQ(cylinder.axial, 15);
+  EXPECT_EQ(cylinder.axial_blocks, 5);
+  EXPECT_EQ(cylinder.core_radius, 0.6);
+  EXPECT_EQ(cylinder.bulge, 0.25);
+  EXPECT_EQ(cylinder.growth, 0.95);
+  EXPECT_FALSE(cylinder.periodic_axis);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
+  EXPECT_GE(mesh.blocks.size(), 25u);
+  EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"wall", "low", "high"}));
 }
 
 TEST(ReadGasCase, PatchesShareASide) {
   const GasCase c = gas_case_of(with("side = \"z_low\"", "side = \"z_low\"\nto = [0.022, 1, 0]") +
                                 "[[boundary]]\nname = \"floor\"\nside = \"z_low\"\n"
                                 "from = [0.022, -1, 0]\ntype = \"wall\"\n");
-  EXPECT_EQ(c.grid.patches[0].to, (Vec3{0.022, 1, 0}));
-  EXPECT_EQ(c.grid.patches[4].from, (Vec3{0.022, -1, 0}));
-  EXPECT_NO_THROW((void)make_box_mesh(c.grid, MPI_COMM_WORLD));
+  EXPECT_EQ(box_grid(c).patches[0].to, (Vec3{0.022, 1, 0}));
+  EXPECT_EQ(box_grid(c).patches[4].from, (Vec3{0.022, -1, 0}));
+  EXPECT_NO_THROW((void)make_mesh(c, MPI_COMM_WORLD));
 }
 
 TEST(ReadGasCase, TheExampleOfTheManualIsGood) {
@@ -121,5 +167,5 @@ TEST(ReadGasCase, TheExampleOfTheManualIsGood) {
   ASSERT_NE(text.find(fence), std::string::npos);
   const GasCase c = gas_case_of(text.substr(begin, end - begin));
   EXPECT_EQ(c.boundaries.size(), 8u);
-  EXPECT_NO_THROW((void)make_box_mesh(c.grid, MPI_COMM_WORLD));
+  EXPECT_NO_THROW((void)make_mesh(c, MPI_COMM_WORLD));
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <granflux/cfd/box_mesh.hpp>
+#include <granflux/cfd/case_mesh.hpp>
 #include <granflux/cfd/gas_solver.hpp>
 
 namespace granflux::cfd::testing {
@@ -18,14 +18,14 @@ inline GasCase box_case(Index3 n, Vec3 size, std::array<bool, 3> periodic,
                         Index3 blocks = {0, 0, 0}) {
   GasCase out;
   for (int d = 0; d < 3; ++d)
-    out.grid.nodes[std::size_t(d)] = uniform_nodes(0, size[d], n[std::size_t(d)]);
-  out.grid.periodic = periodic;
-  out.grid.blocks = blocks;
+    box_grid(out).nodes[std::size_t(d)] = uniform_nodes(0, size[d], n[std::size_t(d)]);
+  box_grid(out).periodic = periodic;
+  box_grid(out).blocks = blocks;
   for (int d = 0; d < 3; ++d)
     for (const bool high : {false, true})
       if (!periodic[std::size_t(d)]) {
         const std::string name = std::string(1, "xyz"[d]) + (high ? "_high" : "_low");
-        out.grid.patches.push_back(
+        box_grid(out).patches.push_back(
             {name, {d, high}, {-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}});
         BoundaryCondition wall;
         wall.name = name;

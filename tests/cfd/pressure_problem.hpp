@@ -60,7 +60,7 @@ inline PressureProblem pressure_problem(const Index3& cells, const Vec3& spacing
                                         MPI_Comm comm = MPI_COMM_WORLD) {
   PressureProblem out;
   const Vec3 size{cells[0] * spacing.x, cells[1] * spacing.y, cells[2] * spacing.z};
-  out.mesh = make_box_mesh(box_case(cells, size, periodic, blocks).grid, comm);
+  out.mesh = make_mesh(box_case(cells, size, periodic, blocks), comm);
   out.spacing = spacing;
   out.cells = cells;
   const Lattice& lattice = *out.mesh.lattice;

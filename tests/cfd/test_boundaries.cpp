@@ -23,9 +23,9 @@ GasCase duct(double width) {
 
 TEST(Boundaries, ParabolicInletHasItsMeanAndItsShape) {
   GasCase c = duct(0.4);
-  c.grid.nodes[0] = {0, 0.02, 0.06, 0.12, 0.2, 0.28, 0.34, 0.38, 0.4}; // any spacing
+  box_grid(c).nodes[0] = {0, 0.02, 0.06, 0.12, 0.2, 0.28, 0.34, 0.38, 0.4}; // any spacing
   boundary(c, "z_low").profile = BoundaryCondition::Profile::parabolic;
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   const Boundaries boundaries(mesh, c.boundaries);
   for (const BoundaryPatch& patch : boundaries.patches()) {
     if (boundaries.condition(patch).name != "z_low")
@@ -52,7 +52,7 @@ TEST(Boundaries, ParabolicInletIsFlatBetweenSlipSides) {
   boundary(c, "z_low").profile = BoundaryCondition::Profile::parabolic;
   boundary(c, "z_high").kind = BoundaryKind::outlet;
   boundary(c, "y_low").kind = boundary(c, "y_high").kind = BoundaryKind::slip;
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   const Boundaries boundaries(mesh, c.boundaries);
   for (const BoundaryPatch& patch : boundaries.patches())
     if (boundaries.condition(patch).name == "z_low")
@@ -68,7 +68,7 @@ TEST(Boundaries, InletVelocityGrowsOverItsRamp) {
   GasCase c = duct(0.4);
   boundary(c, "z_low").ramp_time = 0.2;
   boundary(c, "z_low").ramp_from = 0.25;
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 1; s <= 6; ++s) {
@@ -81,7 +81,7 @@ TEST(Boundaries, InletVelocityGrowsOverItsRamp) {
 TEST(Boundaries, InletIsSuperficial) {
   GasCase c = duct(0.4);
   boundary(c, "x_low").kind = boundary(c, "x_high").kind = BoundaryKind::slip;
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields eps = make_fields(mesh, 0.4);
   gas.initialise(eps, Vec3{0, 0, 5});
@@ -95,7 +95,7 @@ TEST(Boundaries, UniformFlowPassesBetweenSlipWalls) {
   GasCase c = duct(0.4);
   boundary(c, "x_low").kind = boundary(c, "x_high").kind = BoundaryKind::slip;
   c.initial_velocity = {0, 0, 2};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 0; s < 20; ++s)
@@ -111,16 +111,17 @@ TEST(Boundaries, UniformFlowPassesBetweenSlipWalls) {
 
 TEST(Boundaries, JetThroughPartOfASideKeepsMass) {
   GasCase c = duct(0.4);
-  c.grid.patches[2] = {"z_low", {2, false}, {0.1, 0, 0}, {0.2, 1, 0}}; // x_low, x_high come first
+  box_grid(c).patches[2] = {
+      "z_low", {2, false}, {0.1, 0, 0}, {0.2, 1, 0}}; // x_low, x_high come first
   ASSERT_EQ(c.boundaries[2].name, "z_low");
-  c.grid.patches.push_back({"left", {2, false}, {0, 0, 0}, {0.1, 1, 0}});
-  c.grid.patches.push_back({"right", {2, false}, {0.2, 0, 0}, {0.4, 1, 0}});
+  box_grid(c).patches.push_back({"left", {2, false}, {0, 0, 0}, {0.1, 1, 0}});
+  box_grid(c).patches.push_back({"right", {2, false}, {0.2, 0, 0}, {0.4, 1, 0}});
   for (const char* name : {"left", "right"}) {
     BoundaryCondition wall;
     wall.name = name;
     c.boundaries.push_back(wall);
   }
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 0; s < 5; ++s)

@@ -24,8 +24,8 @@ std::string refusal(const BoxGrid& grid) {
 
 TEST(BoxMesh, VolumesAndAreasOfAStretchedBox) {
   GasCase c = box_case({4, 6, 8}, {1, 1, 1}, {false, true, false});
-  c.grid.nodes[0] = {0, 0.1, 0.3, 0.6, 1.0};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  box_grid(c).nodes[0] = {0, 0.1, 0.3, 0.6, 1.0};
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   double volume = 0;
   for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3&) {
     const Block& block = mesh.local[b];
@@ -45,7 +45,7 @@ TEST(BoxMesh, VolumesAndAreasOfAStretchedBox) {
 TEST(BoxMesh, HaloContinuesAFieldThroughBlocksAndPeriods) {
   for (const Index3 blocks : {Index3{0, 0, 0}, Index3{2, 1, 4}}) {
     const GasCase c = box_case({8, 1, 12}, {1, 1, 1}, {true, true, false}, blocks);
-    const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+    const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
     const Halo halo(mesh);
     BlockFields f = make_fields(mesh, -1);
     const auto value = [](const Vec3& x) { return std::sin(2 * pi * x.x) + 7 * x.z; };
@@ -73,21 +73,21 @@ TEST(BoxMesh, HaloContinuesAFieldThroughBlocksAndPeriods) {
 
 TEST(BoxMesh, RefusesBadPatches) {
   const GasCase good = box_case({4, 4, 8}, {1, 1, 1}, {false, true, false});
-  EXPECT_EQ(refusal(good.grid), "accepted");
-  BoxGrid grid = good.grid;
+  EXPECT_EQ(refusal(box_grid(good)), "accepted");
+  BoxGrid grid = box_grid(good);
   grid.patches.push_back({"jet", {2, false}, {0.2, 0, 0}, {0.6, 1, 0}});
   EXPECT_NE(refusal(grid).find("\"z_low\" and \"jet\" overlap on 4 faces"), std::string::npos)
       << refusal(grid);
-  grid = good.grid;
+  grid = box_grid(good);
   grid.patches.pop_back();
   EXPECT_NE(refusal(grid).find("side z_high: 16 faces have no boundary"), std::string::npos);
-  grid = good.grid;
+  grid = box_grid(good);
   grid.patches.push_back({"lid", {1, true}, {}, {}});
   EXPECT_NE(refusal(grid).find("\"lid\": its side y_high is periodic"), std::string::npos);
-  grid = good.grid;
+  grid = box_grid(good);
   grid.nodes[0][2] = grid.nodes[0][1];
   EXPECT_NE(refusal(grid).find("increase strictly"), std::string::npos);
-  grid = good.grid;
+  grid = box_grid(good);
   grid.blocks = {3, 1, 2};
   EXPECT_NE(refusal(grid).find("3 along x with 4 cells"), std::string::npos);
 }

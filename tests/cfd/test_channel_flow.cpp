@@ -20,7 +20,7 @@ double error(int n, double wall, double factor = 1) {
   c.fluid.viscosity = mu * factor;
   c.fluid.driving_pressure_gradient = {-gradient, 0, 0};
   boundary(c, "y_high").velocity = {wall, 0, 0};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 0; s < 300; ++s) // three diffusion times: e^(-3 pi^2) of the start is left

@@ -28,11 +28,11 @@ BlockFields field(const Mesh& mesh, const std::function<double(const Vec3&)>& va
 
 TEST(Energy, LinearConductionIsExact) {
   GasCase c = box_case({6, 2, 4}, {1, 1, 1}, {false, true, false});
-  c.grid.nodes[0] = {0, 0.1, 0.15, 0.4, 0.5, 0.8, 1};
+  box_grid(c).nodes[0] = {0, 0.1, 0.15, 0.4, 0.5, 0.8, 1};
   c.energy = Energy{.heat_capacity = 1, .conductivity = 0.3, .initial_temperature = 300};
   hold(c, "x_low", 400);
   hold(c, "x_high", 300);
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const auto linear = [](const Vec3& x) { return 400 - 100 * x.x; };
   const BlockFields eps = make_fields(mesh, 0.7);
@@ -51,7 +51,7 @@ double wave_error(int n, int steps, double conductivity) {
   GasCase c = box_case({n, 2, 2}, {1, 1, 1}, {true, true, true});
   c.energy = Energy{.heat_capacity = 2, .conductivity = 2 * conductivity, .initial_temperature = 0};
   c.numerics.convection = ConvectionScheme::central;
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   gas.initialise(one, Vec3{speed, 0, 0});
@@ -81,7 +81,7 @@ TEST(Energy, UniformTemperatureStaysUniformHoweverTheVoidFractionMoves) {
   hold(c, "z_low", 350);
   boundary(c, "z_high").temperature = 350;
   c.energy = Energy{.initial_temperature = 350};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const auto eps = [&](int s) {
     return field(mesh, [&](const Vec3& x) {
@@ -101,7 +101,7 @@ TEST(Energy, UniformTemperatureStaysUniformHoweverTheVoidFractionMoves) {
 TEST(Energy, StiffExchangeMeetsTheOtherPhaseFromOneSide) {
   GasCase c = box_case({4, 4, 4}, {1, 1, 1}, {true, true, true});
   c.energy = Energy{.heat_capacity = 1000, .conductivity = 0, .initial_temperature = 300};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields eps = make_fields(mesh, 0.5);
   gas.initialise(eps, Vec3{});
@@ -127,7 +127,7 @@ TEST(Energy, GasThatFlowsBackHasTheTemperatureOfItsOutlet) {
     boundary(c, name).temperature = temperature;
   }
   c.energy = Energy{.heat_capacity = 1, .conductivity = 0, .initial_temperature = 300};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 0; s < 200; ++s) {
@@ -145,7 +145,7 @@ TEST(Energy, WallHeatFluxHeatsTheGasByExactlyThat) {
   boundary(c, "x_low").heat = Heat::flux;
   boundary(c, "x_low").heat_flux = 50;
   c.energy = Energy{};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 0; s < 5; ++s)
@@ -167,7 +167,7 @@ double cavity_nusselt(double rayleigh, int n, double dt, int steps, double facto
                     .initial_temperature = 0,
                     .expansion = rayleigh * 0.71 * factor,
                     .reference_temperature = 0};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   for (int s = 0; s < steps; ++s)
@@ -202,7 +202,7 @@ TEST(Energy, HeatedCavityNusseltNumber) {
 
 TEST(Energy, NothingIsHeldWhereItIsNotAskedFor) {
   const GasCase c = box_case({4, 4, 4}, {1, 1, 1}, {true, true, true});
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   EXPECT_EQ(gas.temperature(), nullptr);
   const HeatExchange heat{make_fields(mesh), make_fields(mesh)};

@@ -15,9 +15,9 @@ namespace {
 
 GasCase rough_case(Index3 blocks) {
   GasCase c = box_case({8, 6, 16}, {0.08, 0.06, 0.2}, {false, true, false}, blocks);
-  c.grid.nodes[2].clear();
+  box_grid(c).nodes[2].clear();
   for (int i = 0; i <= 16; ++i)
-    c.grid.nodes[2].push_back(0.2 * i / 16 * (1 + 0.3 * (1 - i / 16.0)));
+    box_grid(c).nodes[2].push_back(0.2 * i / 16 * (1 + 0.3 * (1 - i / 16.0)));
   c.fluid = {.density = 1.2, .viscosity = 1.8e-5};
   boundary(c, "z_low").kind = BoundaryKind::inlet;
   boundary(c, "z_low").velocity = {0.1, 0, 0.8};
@@ -38,8 +38,7 @@ double eps_at(const Vec3& x, double t) {
 
 struct ShakenBed {
   explicit ShakenBed(Index3 blocks, MPI_Comm comm)
-      : gas_case(rough_case(blocks)), mesh(make_box_mesh(gas_case.grid, comm)),
-        gas(mesh, gas_case) {
+      : gas_case(rough_case(blocks)), mesh(make_mesh(gas_case, comm)), gas(mesh, gas_case) {
     BlockFields eps = make_fields(mesh, 1);
     MomentumExchange exchange = make_exchange(mesh);
     for (int s = 0; s <= 25; ++s) {
@@ -104,7 +103,7 @@ TEST(GasBalance, ClosedBoxRefusesANetFlux) {
   GasCase c = box_case({4, 4, 4}, {1, 1, 1}, {true, true, false});
   boundary(c, "z_low").kind = BoundaryKind::inlet;
   boundary(c, "z_low").velocity = {0, 0, 1};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   EXPECT_THROW(GasSolver(mesh, c), std::runtime_error);
 }
 

@@ -15,7 +15,7 @@ namespace {
 TEST(GasRestart, ContinuesBitForBit) {
   GasCase c = box_case({6, 4, 8}, {1, 1, 1}, {false, true, false});
   boundary(c, "x_high").velocity = {0, 0, 1};
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver straight(mesh, c), stopped(mesh, c);
   BlockFields eps = make_fields(mesh, 0.8);
   const auto run = [&](GasSolver& gas, int from, int to) {

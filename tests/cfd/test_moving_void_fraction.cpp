@@ -36,7 +36,7 @@ std::array<double, 2> errors(int n, int steps, double source_factor = 1) {
   GasCase gas_case = box_case({n, 2, 2}, {1, 1, 1}, {true, true, true});
   gas_case.fluid.viscosity = 0;
   gas_case.numerics.convection = ConvectionScheme::central;
-  const Mesh mesh = make_box_mesh(gas_case.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(gas_case, MPI_COMM_WORLD);
   GasSolver gas(mesh, gas_case);
   const double dt = end / steps;
   BlockFields e = make_fields(mesh, 1);

@@ -249,7 +249,7 @@ TEST(Multigrid, GasFlowIsTheSameAsWithTheDirectSolver) {
     c.numerics.pressure_solver = method;
     c.numerics.pressure_tolerance = 1e-14;
     c.numerics.viscous_tolerance = 1e-14;
-    const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+    const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
     GasSolver gas(mesh, c);
     MomentumExchange drag = make_exchange(mesh);
     for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3& x) {

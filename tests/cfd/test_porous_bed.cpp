@@ -24,7 +24,7 @@ double pressure_drop(const Bed& bed, bool model_b = false) {
   boundary(c, "z_low").kind = BoundaryKind::inlet;
   boundary(c, "z_low").velocity = {0, 0, bed.superficial};
   boundary(c, "z_high").kind = BoundaryKind::outlet;
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   BlockFields eps = make_fields(mesh, bed.eps);
   MomentumExchange exchange = make_exchange(mesh);

@@ -27,7 +27,7 @@ std::array<double, 2> errors(int n, int steps, ConvectionScheme scheme, double v
   c.numerics.convection = scheme;
   c.fluid.viscosity = viscosity;
   c.numerics.pressure_tolerance = 1e-12; // continuity is asked to hold to 1e-11
-  const Mesh mesh = make_box_mesh(c.grid, MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   GasSolver gas(mesh, c);
   const BlockFields one = make_fields(mesh, 1);
   BlockVectors start = make_vectors(mesh);

@@ -25,19 +25,19 @@ const Vec3 box{16e-3, 8e-3, 24e-3};
 
 cfd::GasCase upflow(bool periodic_sides) {
   cfd::GasCase c;
-  c.grid.nodes = {cfd::uniform_nodes(0, box.x, 8), cfd::uniform_nodes(0, box.y, 4),
-                  cfd::uniform_nodes(0, box.z, 12)};
-  c.grid.blocks = {2, 1, 2};
-  c.grid.periodic = {periodic_sides, false, false};
-  c.grid.patches = {
+  box_grid(c).nodes = {cfd::uniform_nodes(0, box.x, 8), cfd::uniform_nodes(0, box.y, 4),
+                       cfd::uniform_nodes(0, box.z, 12)};
+  box_grid(c).blocks = {2, 1, 2};
+  box_grid(c).periodic = {periodic_sides, false, false};
+  box_grid(c).patches = {
       {"front", {1, false}}, {"back", {1, true}}, {"in", {2, false}}, {"out", {2, true}}};
   c.boundaries = {{.name = "front", .kind = cfd::BoundaryKind::wall},
                   {.name = "back", .kind = cfd::BoundaryKind::slip},
                   {.name = "in", .kind = cfd::BoundaryKind::inlet, .velocity = {0, 0, 1.5}},
                   {.name = "out", .kind = cfd::BoundaryKind::outlet}};
   if (!periodic_sides) {
-    c.grid.patches.push_back({"left", {0, false}});
-    c.grid.patches.push_back({"right", {0, true}});
+    box_grid(c).patches.push_back({"left", {0, false}});
+    box_grid(c).patches.push_back({"right", {0, true}});
     c.boundaries.push_back({.name = "left", .kind = cfd::BoundaryKind::wall});
     c.boundaries.push_back({.name = "right", .kind = cfd::BoundaryKind::wall});
   }

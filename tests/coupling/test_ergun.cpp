@@ -46,9 +46,9 @@ Drops pressure_drop(double u, const char* kernel, coupling::MomentumModel model,
   const double a = lattice_constant();
   cfd::GasCase c;
   for (std::size_t k = 0; k < 3; ++k)
-    c.grid.nodes[k] = cfd::uniform_nodes(0, spheres[k] * a, spheres[k] / 5);
-  c.grid.patches = {{"in", {2, false}},  {"out", {2, true}},    {"west", {0, false}},
-                    {"east", {0, true}}, {"front", {1, false}}, {"back", {1, true}}};
+    box_grid(c).nodes[k] = cfd::uniform_nodes(0, spheres[k] * a, spheres[k] / 5);
+  box_grid(c).patches = {{"in", {2, false}},  {"out", {2, true}},    {"west", {0, false}},
+                         {"east", {0, true}}, {"front", {1, false}}, {"back", {1, true}}};
   for (const char* side : {"west", "east", "front", "back"})
     c.boundaries.push_back({.name = side, .kind = cfd::BoundaryKind::slip});
   c.boundaries.push_back({.name = "in", .kind = cfd::BoundaryKind::inlet, .velocity = {0, 0, u}});

@@ -21,9 +21,9 @@ using granflux::testing::sphere;
 double gas_after(double stiffness) {
   const double radius = std::cbrt(0.4 / 8 * 3 / (4 * std::numbers::pi)), d = 2 * radius;
   cfd::GasCase c;
-  for (auto& nodes : c.grid.nodes)
+  for (auto& nodes : box_grid(c).nodes)
     nodes = cfd::uniform_nodes(0, 4, 4);
-  c.grid.periodic = {true, true, true};
+  box_grid(c).periodic = {true, true, true};
   c.fluid.density = 1.2;
   c.fluid.viscosity = 1000 * d * d / (18 * 0.6 * 0.4);     // beta = 1000 kg/(m3 s)
   c.fluid.driving_pressure_gradient = {0, 0, -1000 / 0.6}; // eps grad p = -beta u at 1 m/s

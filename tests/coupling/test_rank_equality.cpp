@@ -20,10 +20,10 @@ const Vec3 box{20e-3, 8e-3, 24e-3};
 
 cfd::GasCase make_case() {
   cfd::GasCase c;
-  c.grid.nodes = {cfd::uniform_nodes(0, box.x, 10), cfd::uniform_nodes(0, box.y, 4),
-                  cfd::uniform_nodes(0, box.z, 12)};
-  c.grid.periodic = {true, false, false};
-  c.grid.patches = {
+  box_grid(c).nodes = {cfd::uniform_nodes(0, box.x, 10), cfd::uniform_nodes(0, box.y, 4),
+                       cfd::uniform_nodes(0, box.z, 12)};
+  box_grid(c).periodic = {true, false, false};
+  box_grid(c).patches = {
       {"front", {1, false}}, {"back", {1, true}}, {"in", {2, false}}, {"out", {2, true}}};
   c.boundaries = {{.name = "front", .kind = cfd::BoundaryKind::wall},
                   {.name = "back", .kind = cfd::BoundaryKind::wall},

@@ -23,9 +23,9 @@ constexpr double cell_size = 1; // mm would do as well: nothing here has a lengt
 
 cfd::GasCase make_case(double d) {
   cfd::GasCase c;
-  for (auto& nodes : c.grid.nodes)
+  for (auto& nodes : box_grid(c).nodes)
     nodes = cfd::uniform_nodes(0, cells * cell_size, cells);
-  c.grid.periodic = {true, true, true};
+  box_grid(c).periodic = {true, true, true};
   c.fluid.density = 1.2;
   c.fluid.viscosity = 1000 * d * d / (18 * 0.6 * 0.4); // Stokes' beta = 18 mu eps (1-eps) / d^2
   c.initial_velocity = {0, 0, 1};

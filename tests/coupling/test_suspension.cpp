@@ -48,9 +48,9 @@ protected:
 
   cfd::GasCase make_case() const {
     cfd::GasCase c;
-    for (auto& nodes : c.grid.nodes)
+    for (auto& nodes : box_grid(c).nodes)
       nodes = cfd::uniform_nodes(0, size, cells);
-    c.grid.periodic = {true, true, true};
+    box_grid(c).periodic = {true, true, true};
     c.fluid = {.density = rho, .viscosity = mu, .gravity = {0, 0, -g}};
     c.initial_velocity = {0, 0, u};
     c.numerics.pressure_tolerance = 1e-13;
@@ -65,7 +65,7 @@ protected:
     return o;
   }
   FakeHost make_host(const cfd::GasCase& c, bool fixed) const {
-    FakeHost host({0, 0, 0}, {size, size, size}, c.grid.periodic, MPI_COMM_WORLD);
+    FakeHost host({0, 0, 0}, {size, size, size}, box_grid(c).periodic, MPI_COMM_WORLD);
     host.gravity = {0, 0, -g};
     const int n = cells * per_cell;
     for (int p = 0; p < n * n * n; ++p)
@@ -77,8 +77,8 @@ protected:
 
 TEST_P(Suspension, HeldInAnUpflowFeelsNoForceAndPressureBearsTheMixture) {
   cfd::GasCase c = make_case();
-  c.grid.periodic[2] = false;
-  c.grid.patches = {{"in", {2, false}}, {"out", {2, true}}};
+  box_grid(c).periodic[2] = false;
+  box_grid(c).patches = {{"in", {2, false}}, {"out", {2, true}}};
   c.boundaries = {{.name = "in", .kind = cfd::BoundaryKind::inlet, .velocity = {0, 0, eps * u}},
                   {.name = "out", .kind = cfd::BoundaryKind::outlet}};
   coupling::Coupler coupler(c, options(), MPI_COMM_WORLD);

@@ -26,10 +26,10 @@ constexpr double response_time = 0.0617;     // s, m/b at Re -> 0
 /// at a fixed Re it is proportional to density and viscosity.
 cfd::GasCase make_case(double cell, double drag_factor) {
   cfd::GasCase c;
-  c.grid.nodes = {cfd::uniform_nodes(0, 5 * cell, 5), cfd::uniform_nodes(0, 20 * cell, 20),
-                  cfd::uniform_nodes(0, 5 * cell, 5)};
-  c.grid.patches = {{"in", {1, false}},  {"out", {1, true}},    {"west", {0, false}},
-                    {"east", {0, true}}, {"front", {2, false}}, {"back", {2, true}}};
+  box_grid(c).nodes = {cfd::uniform_nodes(0, 5 * cell, 5), cfd::uniform_nodes(0, 20 * cell, 20),
+                       cfd::uniform_nodes(0, 5 * cell, 5)};
+  box_grid(c).patches = {{"in", {1, false}},  {"out", {1, true}},    {"west", {0, false}},
+                         {"east", {0, true}}, {"front", {2, false}}, {"back", {2, true}}};
   for (const char* side : {"west", "east", "front", "back"})
     c.boundaries.push_back({.name = side, .kind = cfd::BoundaryKind::slip});
   c.boundaries.push_back(

@@ -5,12 +5,20 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include <granflux/cfd/annulus_grid.hpp>
 #include <granflux/cfd/box_mesh.hpp>
+#include <granflux/cfd/cylinder_grid.hpp>
+#include <granflux/cfd/error.hpp>
 #include <granflux/cfd/pressure_solver.hpp>
 
 namespace granflux::cfd {
+
+/// What a grid is made from; make_mesh in case_mesh.hpp makes it.
+using GridDescription = std::variant<BoxGrid, AnnulusGrid, CylinderGrid>;
 
 struct Fluid {
   double density = 1.2;      ///< kg/m3
@@ -84,7 +92,7 @@ struct Output {
 
 /// All that defines a gas run. Plain data; read_gas_case fills it from a TOML file.
 struct GasCase {
-  BoxGrid grid;
+  GridDescription grid;
   Fluid fluid;
   std::optional<Energy> energy; ///< not set: no temperature is solved for
   std::vector<BoundaryCondition> boundaries;
@@ -92,5 +100,16 @@ struct GasCase {
   Output output;
   Vec3 initial_velocity{};
 };
+
+/// The box of a case that must have one. Throws ConfigError where the grid is of another kind.
+[[nodiscard]] inline const BoxGrid& box_grid(const GasCase& gas_case) {
+  if (const auto* box = std::get_if<BoxGrid>(&gas_case.grid))
+    return *box;
+  throw ConfigError("[grid] kind: must be \"box\" for a case with particles: they are located on "
+                    "straight boxes of cells only");
+}
+[[nodiscard]] inline BoxGrid& box_grid(GasCase& gas_case) {
+  return const_cast<BoxGrid&>(box_grid(std::as_const(gas_case)));
+}
 
 } // namespace granflux::cfd
