@@ -7,6 +7,7 @@
 
 #include "fix_gravity.hpp"
 #include "fix_nve_sphere.hpp"
+#include "fix_wall_gran.hpp"
 #include "neighbor.hpp"
 
 namespace granflux::particle_subset {
@@ -24,6 +25,7 @@ void take_over(LAMMPS_NS::LAMMPS& lammps, FixStyles& styles) {
   lammps.neighbor = new Neighbor(&lammps); // owned by lammps
   styles["nve/sphere"] = create<FixNveSphere>;
   styles["gravity"] = create<FixGravity>;
+  styles["wall/gran"] = create<FixWallGran>;
 }
 
 } // namespace granflux::particle_subset

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "fix_wall_gran.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <liggghts/atom.h>
+
+#include <liggghts/fix_contact_history_mesh.h>
+#include <liggghts/fix_mesh_surface.h>
+#include <liggghts/fix_neighlist_mesh.h>
+#include <liggghts/fix_property_atom.h>
+#include <liggghts/granular_wall.h>
+#include <liggghts/multi_vector_container.h>
+#include <liggghts/neighbor.h>
+#include <liggghts/primitive_wall.h>
+#include <liggghts/tri_mesh.h>
+
+#include "say_once.hpp"
+#include "team.hpp"
+
+namespace granflux::particle_subset {
+
+namespace {
+
+using LIGGGHTS::ContactModels::SurfacesIntersectData;
+
+/// The laws of which it is known that the contacts of different particles do not meet in them.
+bool laws_are_separate(LIGGGHTS::Walls::IGranularWall& wall) {
+  using namespace std::string_literals;
+  const auto one_of = [&](const std::string& kind, std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return wall.contact_match(kind, name); });
+  };
+  return one_of("surface"s, {"default"}) &&
+         one_of("normal"s, {"hooke", "hooke/stiffness", "hertz", "hertz/stiffness"}) &&
+         one_of("tangential"s, {"off", "history", "no_history"}) &&
+         one_of("rolling_friction"s, {"off", "cdt", "epsd", "epsd2"}) &&
+         one_of("cohesion"s, {"off", "sjkr", "sjkr2"});
+}
+
+} // namespace
+
+struct FixWallGran::Mesh {
+  LAMMPS_NS::TriMesh* triangles;
+  LAMMPS_NS::FixContactHistoryMesh* history;
+  double*** velocity; // of the three corners of each triangle, or null
+  int number;
+};
+
+void FixWallGran::pre_neighbor() {
+  LAMMPS_NS::FixWallGran::pre_neighbor();
+  for (WallPairs& pairs : pairs_)
+    pairs.current = false;
+}
+
+/// Null: threads may share the work.
+const char* FixWallGran::reason_for_stock() const {
+  if (!impl || !atom->sphere_flag || atom->shapetype_flag || !atom->rmass)
+    return "particles other than spheres";
+  if (fix_rigid_)
+    return "rigid bodies";
+  if (heattransfer_flag_)
+    return "heat of walls";
+  if (store_force_contact_ || store_force_contact_stress_ || fix_store_multicontact_data_)
+    return "forces stored for each contact";
+  if (track_energy_ || impl->get_history_offset("dissipation_force") >= 0)
+    return "energy budgets";
+  if (neighbor->contactDistanceFactor != 1)
+    return "forces at a distance";
+  if (!laws_are_separate(*impl))
+    return "this contact model";
+  return nullptr;
+}
+
+bool FixWallGran::threads_may_share() {
+  if (addflag_) // asked by a compute, contact by contact
+    return false;
+  const char* reason = reason_for_stock();
+  if (reason)
+    say_once(*lmp, std::string("fix wall/gran is LIGGGHTS' own for ") + reason);
+  return !reason;
+}
+
+void FixWallGran::post_force_primitive(int vflag) {
+  if (!threads_may_share()) {
+    LAMMPS_NS::FixWallGran::post_force_primitive(vflag);
+    return;
+  }
+  std::array<double, 3> wall_velocity{};
+  if (shear_)
+    wall_velocity[std::size_t(shearDim_)] = vshear_;
+  int* near = nullptr;
+  const int count = primitiveWall_->getNeighbors(near);
+  for_each_subset(count, [&](Range range) {
+    for (int k = range.begin; k < range.end; ++k)
+      if (atom->mask[near[k]] & groupbit)
+        touch_primitive(near[k], wall_velocity.data());
+  });
+}
+
+void FixWallGran::touch_primitive(int particle, const double* wall_velocity) {
+  double* history = dnum() > 0 ? fix_history_primitive_->array_atom[particle] : nullptr;
+  SurfacesIntersectData contact;
+  contact.radi = radius_[particle];
+  double to_wall[3] = {0, 0, 0};
+  const double gap = primitiveWall_->resolveContact(x_[particle], contact.radi, to_wall);
+  if (gap > cutneighmax_)
+    return;
+  if (gap > 0) {
+    std::fill_n(history, dnum(), 0.0);
+    return;
+  }
+  double velocity[3] = {wall_velocity[0], wall_velocity[1], wall_velocity[2]};
+  if (shear_ && shearAxis_ >= 0) { // a turning cylinder
+    double radial[3];
+    primitiveWall_->calcRadialDistance(x_[particle], radial);
+    LAMMPS_NS::vectorCross3D(shearAxisVec_, radial, velocity);
+  }
+  contact.is_wall = true;
+  contact.i = particle;
+  contact.contact_history = history;
+  contact.deltan = -gap;
+  for (int d = 0; d < 3; ++d)
+    contact.delta[d] = -to_wall[d];
+  impl->compute_force(this, contact, true, velocity);
+}
+
+void FixWallGran::post_force_mesh(int vflag) {
+  if (!threads_may_share()) {
+    LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
+    return;
+  }
+  pairs_.resize(std::size_t(n_FixMesh_));
+  for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
+    evaluate_mesh(mesh);
+}
+
+void FixWallGran::evaluate_mesh(int number) {
+  using CornerVelocities = LAMMPS_NS::MultiVectorContainer<double, 3, 3>;
+  LAMMPS_NS::FixMeshSurface& fix = *FixMesh_list_[number];
+  LAMMPS_NS::TriMesh& triangles = *fix.triMesh();
+  auto* velocities = triangles.prop().getElementProperty<CornerVelocities>("v");
+  const Mesh mesh{.triangles = &triangles,
+                  .history = fix.contactHistory(),
+                  .velocity = velocities ? velocities->begin() : nullptr,
+                  .number = number};
+  atom_type_wall_ = fix.atomTypeWall();
+  if (mesh.history)
+    mesh.history->markAllContacts();
+
+  WallPairs& pairs = pairs_[std::size_t(number)];
+  if (!pairs.current)
+    pairs.turn_round(triangles.sizeLocal() + triangles.sizeGhost(), atom->nlocal,
+                     [lists = fix.meshNeighlist()](int triangle) -> const std::vector<int>& {
+                       return lists->get_contact_list(triangle);
+                     });
+  // Stress, wear and the like are summed over the contacts of a mesh: its style then names them.
+  const std::string_view mesh_style = fix.style;
+  const bool sums = mesh_style != "mesh/surface" && mesh_style != "mesh/surface/planar";
+  forces_on_mesh_.assign(sums ? pairs.triangle.size() : 0, {});
+
+  for_each_subset(int(pairs.particle.size()), [&](Range range) {
+    for (int row = range.begin; row < range.end; ++row)
+      for (int k = pairs.begin[std::size_t(row)]; k < pairs.begin[std::size_t(row) + 1]; ++k) {
+        const auto pair = std::size_t(k);
+        touch_mesh(mesh, pairs.particle[std::size_t(row)], pairs.triangle[pair],
+                   sums ? &forces_on_mesh_[std::size_t(pairs.place[pair])] : nullptr);
+      }
+  });
+  for (ForceOnMesh& on : forces_on_mesh_) // in LIGGGHTS' order: its sums, to the last bit
+    if (on.acts)
+      fix.add_particle_contribution(on.particle, on.force, on.to_wall, on.triangle,
+                                    on.wall_velocity);
+  if (mesh.history)
+    for_each_subset(atom->nlocal,
+                    [&](Range range) { mesh.history->cleanUpContacts(range.begin, range.end); });
+}
+
+void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh) {
+  constexpr int face = 7; // place of the nearest point: within the triangle
+  SurfacesIntersectData contact;
+  contact.radi = radius_[particle];
+  double to_wall[3], weight[3];
+  int place = 0;
+  const double gap = mesh.triangles->resolveTriSphereContactBary(
+      particle, triangle, contact.radi, x_[particle], to_wall, weight, place, true);
+  if (gap > 0)
+    return;
+  if (mesh.history && !mesh.history->handleContact(particle, mesh.triangles->id(triangle),
+                                                   contact.contact_history, true, place == face))
+    return;
+  double wall_velocity[3] = {0, 0, 0};
+  if (mesh.velocity) {
+    double** corner = mesh.velocity[triangle];
+    for (int d = 0; d < 3; ++d)
+      wall_velocity[d] =
+          weight[0] * corner[0][d] + weight[1] * corner[1][d] + weight[2] * corner[2][d];
+  }
+  contact.is_wall = true;
+  contact.i = particle;
+  contact.mesh = mesh.triangles;
+  contact.fix_mesh = FixMesh_list_[mesh.number];
+  contact.deltan = -gap;
+  for (int d = 0; d < 3; ++d)
+    contact.delta[d] = -to_wall[d];
+  double* sum = f_[particle];
+  const double before[3] = {sum[0], sum[1], sum[2]};
+  impl->compute_force(this, contact, true, wall_velocity, nullptr, mesh.number, mesh.triangles,
+                      triangle);
+  if (!on_mesh || !contact.has_force_update)
+    return;
+  on_mesh->acts = true;
+  on_mesh->particle = particle;
+  on_mesh->triangle = triangle;
+  for (int d = 0; d < 3; ++d) {
+    on_mesh->force[d] = sum[d] - before[d];
+    on_mesh->to_wall[d] = to_wall[d];
+    on_mesh->wall_velocity[d] = wall_velocity[d];
+  }
+}
+
+} // namespace granflux::particle_subset
