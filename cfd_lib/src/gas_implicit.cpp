@@ -9,6 +9,21 @@
 
 namespace granflux::cfd {
 
+/// The converged velocity's own convection and friction, as sums of fluxes: momentum closes
+/// whatever the tolerance.
+void GasSolver::Impl::close_implicit(double new_time, const MomentumExchange* exchange,
+                                     StepReport& report) {
+  r = implicit->fixed;
+  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+    for (std::size_t m = 0; m < 3; ++m)
+      for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
+        r[b][m][c] -= 0.5 * implicit->convection[b][m][c] / mesh.local[b].volume[c];
+      });
+  boundary_convection += 0.5 * implicit->outflow;
+  add_new_friction(new_time);
+  project(new_time, Drive::given, exchange, report);
+}
+
 /// Crank-Nicolson for convection as well: momentum and pressure are solved in turn until the
 /// momentum equation holds with the velocity, the fluxes and the pressure of the new time.
 void GasSolver::Impl::iterate_implicit(double new_time, const MomentumExchange* exchange,
@@ -17,12 +32,11 @@ void GasSolver::Impl::iterate_implicit(double new_time, const MomentumExchange* 
   constexpr double reduction = 0.1; // of the defect by one solution: the rest is out of date
   ImplicitMomentum& state = *implicit;
   state.fixed = r;
-  const Vec3 fixed_friction = boundary_friction, fixed_convection = boundary_convection;
   boundaries.fill_velocity(u, eps_middle, new_time);
   double worst = 0;
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
     update_velocity_gradient();
-    convect_momentum(state.convection);
+    state.outflow = convect_momentum(state.convection);
     std::array<double, 6> squares{}; // of each component's terms, of its defect
     for (std::size_t m = 0; m < 3; ++m) {
       viscous_force(m, [&](std::size_t b) -> Field& { return state.defect[b][m]; });
@@ -50,8 +64,10 @@ void GasSolver::Impl::iterate_implicit(double new_time, const MomentumExchange* 
     worst = std::sqrt(squares[3] + squares[4] + squares[5]);
     if (!std::isfinite(scale + worst))
       check_finite(); // names the cell and throws
-    if (iteration > 1 && worst <= numerics.implicit_tolerance * scale)
+    if (iteration > 1 && worst <= numerics.implicit_tolerance * scale) {
+      close_implicit(new_time, exchange, report);
       return;
+    }
     worst = scale > 0 ? worst / scale : 0;
 
     state.solver.set_operator(inertia, conductance, flux, fluid.density);
@@ -61,16 +77,17 @@ void GasSolver::Impl::iterate_implicit(double new_time, const MomentumExchange* 
       report.viscous_iterations = std::max(
           report.viscous_iterations, state.solver.solve(component(m), defect, reduction,
                                                         0.1 * numerics.implicit_tolerance * scale));
-    }
-    r = state.fixed;
-    boundary_friction = fixed_friction;
-    add_new_friction(new_time);
-    boundary_convection = fixed_convection + 0.5 * convect_momentum(state.convection);
-    for (std::size_t b = 0; b < mesh.local.size(); ++b)
-      for (std::size_t m = 0; m < 3; ++m)
+      // What this velocity would be made of; its own terms take their place in the end.
+      for (std::size_t b = 0; b < mesh.local.size(); ++b)
         for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
-          r[b][m][c] -= 0.5 * state.convection[b][m][c] / mesh.local[b].volume[c];
+          r[b][m][c] = a[b][c] * u[b][m][c] + share[b][c] * grad_p[b][m][c];
         });
+    }
+    if (!mesh.orthogonal) {
+      halo.exchange(u);
+      boundaries.fill_velocity(u, eps_middle, new_time);
+      update_velocity_gradient();
+    }
     project(new_time, Drive::given, exchange, report);
     report.outer_iterations = iteration;
   }

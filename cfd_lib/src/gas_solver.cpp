@@ -44,8 +44,8 @@ GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
         {Field(mesh.local[b].layout), Field(mesh.local[b].layout), Field(mesh.local[b].layout)});
   system.rhs = make_fields(mesh);
   if (numerics.time_scheme == TimeScheme::implicit)
-    implicit = std::make_unique<ImplicitMomentum>(
-        ImplicitMomentum{{m, halo, boundaries}, make_vectors(m), make_vectors(m), make_vectors(m)});
+    implicit = std::make_unique<ImplicitMomentum>(ImplicitMomentum{
+        {m, halo, boundaries}, make_vectors(m), make_vectors(m), make_vectors(m), {}});
   if (!mesh.orthogonal || fluid.smagorinsky > 0)
     velocity_gradient.fill(make_vectors(m));
   if (!mesh.orthogonal)

@@ -37,6 +37,7 @@ struct ImplicitMomentum {
   TransportSolver solver;
   BlockVectors fixed; ///< right-hand side without the pressure and the new velocity's terms [N/m3]
   BlockVectors convection, defect; ///< at the new time, of each cell [N]
+  Vec3 outflow;                    ///< of it, through this rank's boundaries [N]
 };
 
 /// State of the gas and the parts of its step, each in a file of its own: gas_convection.cpp,
@@ -55,6 +56,7 @@ struct GasSolver::Impl {
   void begin_momentum(double dt, const MomentumExchange* exchange);
   void predict(double new_time, StepReport& report);
   void add_new_friction(double new_time);
+  void close_implicit(double new_time, const MomentumExchange* exchange, StepReport& report);
   void iterate_implicit(double new_time, const MomentumExchange* exchange, StepReport& report);
   void project(double new_time, Drive drive, const MomentumExchange* exchange, StepReport& report);
   void interpolate_momentum(double new_time, Drive drive);
