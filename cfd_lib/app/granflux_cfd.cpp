@@ -20,6 +20,7 @@
 #include <granflux/cfd/deal_blocks.hpp>
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/gas_solver.hpp>
+#include <granflux/cfd/mesh_quality.hpp>
 #include <granflux/cfd/read_gas_case.hpp>
 #include <granflux/version.hpp>
 
@@ -126,8 +127,19 @@ void print_banner(const Mesh& mesh, const GasCase& gas_case, const std::string& 
   if (ranks > 1)
     fmt::print(", largest load {:.2f} of the mean", imbalance(mesh));
   fmt::print("\n");
-  fmt::print("{} steps of {:.6g} s to t = {:.6g} s\n\n", steps,
+  fmt::print("{} steps of {:.6g} s to t = {:.6g} s\n", steps,
              gas_case.numerics.end_time / double(steps), gas_case.numerics.end_time);
+  std::fflush(stdout);
+}
+
+/// Collective; rank 0 prints. Throws ConfigError on all ranks where the mesh is too bad.
+void report_quality(const Mesh& mesh, bool prints) {
+  const MeshQuality quality = measure_quality(mesh);
+  if (prints)
+    fmt::print("{}\n", describe(quality));
+  const std::string warning = quality_warning(quality);
+  if (prints)
+    fmt::print("{}\n", warning.empty() ? "" : "warning: " + warning + "\n");
   std::fflush(stdout);
 }
 
@@ -186,6 +198,7 @@ void run(const Options& options, MPI_Comm comm, bool prints) {
       seconds.set_up, [&] { return naming_file(file, [&] { return make_mesh(gas_case, comm); }); });
   if (prints)
     print_banner(mesh, gas_case, file, steps);
+  naming_file(file, [&] { report_quality(mesh, prints); });
   FieldOutput output = naming_file(file, [&] { return FieldOutput(mesh, gas_case.output); });
   const BlockFields void_fraction = make_fields(mesh, 1.0);
   std::optional<GasSolver> gas;
