@@ -184,6 +184,15 @@ Pairings Coarsening::next(const Mesh& mesh) {
   return pairings;
 }
 
+bool closed_on_itself(const Mesh& mesh, int id, int direction) {
+  const BlockInfo& info = mesh.blocks[u(id)];
+  if (info.cells[u(direction)] > 1)
+    return false;
+  return std::any_of(info.patches.begin(), info.patches.end(), [&](const Patch& patch) {
+    return patch.side.direction == direction && patch.link && patch.link->block == id;
+  });
+}
+
 Mesh join_cells(const Mesh& mesh, const Pairings& pairings) {
   Mesh coarse;
   coarse.comm = mesh.comm;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <granflux/cfd/coarsest_solver.hpp>
+#include "coarsest_solver.hpp"
 
 #include <Eigen/SparseCholesky>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int faces_per_cell = 6;
 
-template <class Body> void for_each_in_order(const Layout& layout, Body&& body) {
+template <class Body> void for_each_in_order(const LevelLayout& layout, Body&& body) {
   for (int k = 0; k < layout.cells[2]; ++k)
     for (int j = 0; j < layout.cells[1]; ++j)
       for (int i = 0; i < layout.cells[0]; ++i)
@@ -91,18 +91,16 @@ CoarsestSolver::CoarsestSolver(const Mesh& mesh, bool singular)
 
 CoarsestSolver::~CoarsestSolver() = default;
 
-void CoarsestSolver::factorise(const std::vector<std::array<Field, 3>>& coefficient) {
+void CoarsestSolver::factorise(const Level& level) {
   Impl& s = *impl_;
   std::size_t at = 0;
-  for (std::size_t b = 0; b < s.mesh.local.size(); ++b) {
-    const Layout& layout = s.mesh.local[b].layout;
-    for_each_in_order(layout, [&](std::ptrdiff_t c) {
+  for (const LevelBlock& block : level.blocks)
+    for_each_in_order(block.layout, [&](std::ptrdiff_t c) {
       for (std::size_t d = 0; d < 3; ++d) {
-        s.mine[at++] = coefficient[b][d][c];
-        s.mine[at++] = coefficient[b][d][c + layout.stride[d]];
+        s.mine[at++] = block.coefficient[d].data()[c];
+        s.mine[at++] = block.coefficient[d].data()[c + block.layout.stride[d]];
       }
     });
-  }
   s.gather(s.all.data(), faces_per_cell);
 
   s.entries.clear();
@@ -131,20 +129,22 @@ void CoarsestSolver::factorise(const std::vector<std::array<Field, 3>>& coeffici
                          "coefficient is not a number, or a part of the gas has no opening");
 }
 
-void CoarsestSolver::solve(const BlockFields& rhs, BlockFields& x) {
+void CoarsestSolver::solve(Level& level) {
   Impl& s = *impl_;
   std::size_t at = 0;
-  for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
-    for_each_in_order(s.mesh.local[b].layout, [&](std::ptrdiff_t c) { s.mine[at++] = rhs[b][c]; });
+  for (const LevelBlock& block : level.blocks)
+    for_each_in_order(block.layout, [&](std::ptrdiff_t c) { s.mine[at++] = block.rhs.data()[c]; });
   s.gather(s.rhs.data(), 1);
   if (s.singular)
     s.rhs.array() -= s.rhs.mean();
   s.solution = s.factor.solve(s.rhs);
   if (s.singular)
     s.solution.array() -= s.solution.mean();
-  for (std::size_t b = 0; b < s.mesh.local.size(); ++b) {
-    int n = s.first[std::size_t(s.mesh.local[b].id)];
-    for_each_in_order(s.mesh.local[b].layout, [&](std::ptrdiff_t c) { x[b][c] = s.solution[n++]; });
+  for (std::size_t b = 0; b < level.blocks.size(); ++b) {
+    LevelBlock& block = level.blocks[b];
+    int n = s.first[std::size_t(level.mesh.local[b].id)];
+    for_each_in_order(block.layout,
+                      [&](std::ptrdiff_t c) { block.x.data()[c] = float(s.solution[n++]); });
   }
 }
 

@@ -34,7 +34,7 @@ public:
       number_neighbours();
   }
 
-  PressureReport solve(const PressureSystem& system, BlockFields& p) override {
+  PressureReport solve(const PressureSystem& system, BlockFields& p, FirstGuess) override {
     const std::vector<double> gathered = gather(system);
     std::vector<double> values(std::size_t(cells_) + 3, 0.0); // solution, then the report
     if (rank_ == 0) {

@@ -3,6 +3,7 @@
 #include <granflux/cfd/halo.hpp>
 
 #include <map>
+#include <type_traits>
 
 namespace granflux::cfd {
 
@@ -25,7 +26,12 @@ template <class Body> void for_ghosts(const Patch& patch, int layers, Body&& bod
 
 } // namespace
 
-Halo::Halo(const Mesh& mesh, int layers) : comm_(mesh.comm) {
+Halo::Halo(const Mesh& mesh, int layers)
+    : Halo(mesh, layers, [&](std::size_t block, const Index3& cell) {
+        return mesh.local[block].layout.at(cell);
+      }) {}
+
+Halo::Halo(const Mesh& mesh, int layers, const Position& position) : comm_(mesh.comm) {
   int rank = 0;
   MPI_Comm_rank(comm_, &rank);
   std::map<int, int> local; // block id -> index into mesh.local
@@ -49,7 +55,7 @@ Halo::Halo(const Mesh& mesh, int layers) : comm_(mesh.comm) {
         if (!here && !there)
           return;
         const auto at = [&](int block, const Index3& cell) {
-          return mesh.local[std::size_t(local.at(block))].layout.at(cell);
+          return position(std::size_t(local.at(block)), cell);
         };
         if (here && there)
           copies_.push_back(
@@ -68,33 +74,34 @@ Halo::Halo(const Mesh& mesh, int layers) : comm_(mesh.comm) {
     message.rank = other, receives_.push_back(std::move(message));
 }
 
-template <class At> void Halo::exchange_values(int count, At&& at) const {
+template <class Value, class At> void Halo::exchange_values(int count, At&& at) const {
   constexpr int tag = 71;
+  const MPI_Datatype type = std::is_same_v<Value, double> ? MPI_DOUBLE : MPI_FLOAT;
   requests_.clear();
   const auto prepare = [&](const Message& message) {
-    message.values.resize(message.cells.size() * std::size_t(count));
+    message.values.resize(message.cells.size() * std::size_t(count) * sizeof(Value));
     requests_.emplace_back();
-    return message.values.data();
+    return reinterpret_cast<Value*>(message.values.data());
   };
+  const auto length = [&](const Message& message) { return int(message.cells.size()) * count; };
   for (const Message& message : receives_) {
-    double* to = prepare(message);
-    MPI_Irecv(to, int(message.values.size()), MPI_DOUBLE, message.rank, tag, comm_,
-              &requests_.back());
+    Value* to = prepare(message);
+    MPI_Irecv(to, length(message), type, message.rank, tag, comm_, &requests_.back());
   }
   for (const Message& message : sends_) {
-    double* to = prepare(message);
+    Value* to = prepare(message);
     for (int f = 0; f < count; ++f)
       for (const auto& [block, position] : message.cells)
         *to++ = at(f, block)[position];
-    MPI_Isend(message.values.data(), int(message.values.size()), MPI_DOUBLE, message.rank, tag,
-              comm_, &requests_.back());
+    MPI_Isend(message.values.data(), length(message), type, message.rank, tag, comm_,
+              &requests_.back());
   }
   for (int f = 0; f < count; ++f)
     for (const Copy& copy : copies_)
       at(f, copy.to_block)[copy.to] = at(f, copy.from_block)[copy.from];
   MPI_Waitall(int(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   for (const Message& message : receives_) {
-    const double* from = message.values.data();
+    const auto* from = reinterpret_cast<const Value*>(message.values.data());
     for (int f = 0; f < count; ++f)
       for (const auto& [block, position] : message.cells)
         at(f, block)[position] = *from++;
@@ -102,14 +109,18 @@ template <class At> void Halo::exchange_values(int count, At&& at) const {
 }
 
 void Halo::exchange(std::initializer_list<BlockFields*> fields) const {
-  exchange_values(int(fields.size()), [&](int f, int block) -> Field& {
+  exchange_values<double>(int(fields.size()), [&](int f, int block) -> Field& {
     return (*fields.begin()[f])[std::size_t(block)];
   });
 }
 
 void Halo::exchange(BlockVectors& vectors) const {
-  exchange_values(
+  exchange_values<double>(
       3, [&](int f, int block) -> Field& { return vectors[std::size_t(block)][std::size_t(f)]; });
+}
+
+void Halo::exchange(const std::vector<float*>& blocks) const {
+  exchange_values<float>(1, [&](int, int block) { return blocks[std::size_t(block)]; });
 }
 
 } // namespace granflux::cfd

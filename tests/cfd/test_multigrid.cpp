@@ -9,6 +9,7 @@
 
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/multigrid.hpp>
+#include <granflux/cfd/row_sweep.hpp>
 
 #include "pressure_problem.hpp"
 
@@ -94,14 +95,15 @@ TEST(Multigrid, SameForAnyCutAndAnyNumberOfRanks) {
   const Index3 cells{24, 24, 24};
   PressureProblem whole = pressure_problem(cells, cubes, closed, {1, 1, 1}, MPI_COMM_SELF);
   fill_system(whole, random_medium(100), false);
-  // Cuts at even cells: the same cells join, so a loose tolerance already gives the same.
+  // Cuts at even cells: the same cells join, so a loose tolerance already gives the same but for
+  // the rounding of the cycle: single precision's share of the error that is left.
   PressureReport first;
-  const std::vector<double> loose = solution(whole, 1e-6, &first);
+  const std::vector<double> loose = solution(whole, 1e-8, &first);
   for (const Index3& blocks : {Index3{2, 2, 1}, {1, 2, 3}, {3, 3, 3}}) {
     PressureProblem cut = pressure_problem(cells, cubes, closed, blocks);
     fill_system(cut, random_medium(100), false);
     PressureReport report;
-    EXPECT_LT(difference(solution(cut, 1e-6, &report), loose), 1e-12);
+    EXPECT_LT(difference(solution(cut, 1e-8, &report), loose), 1e-12);
     EXPECT_EQ(report.iterations, first.iterations);
   }
   // Elsewhere the tolerance decides.
@@ -139,31 +141,55 @@ TEST(Multigrid, CycleIsSymmetricAndPositive) {
     Medium medium;
     bool open;
     Vec3 spacing;
+    Index3 blocks; ///< one: swept at once; several: step by step
   };
-  for (const Case& one :
-       {Case{random_medium(1e6), true, cubes}, Case{ball_medium(1e6, 20), false, cubes},
-        Case{bed_medium(1e6, 20), true, {20, 1, 1}}}) {
-    PressureProblem problem =
-        pressure_problem({20, 18, 21}, one.spacing, {false, true, false}, {2, 1, 2});
+  for (const Case& one : {Case{random_medium(1e6), true, cubes, {2, 1, 2}},
+                          Case{ball_medium(1e6, 20), false, cubes, {2, 1, 2}},
+                          Case{ball_medium(1e6, 20), false, cubes, {1, 1, 1}},
+                          Case{bed_medium(1e6, 20), true, {20, 1, 1}, {1, 1, 1}}}) {
+    const bool whole = one.blocks == Index3{1, 1, 1};
+    PressureProblem problem = pressure_problem({20, 18, 21}, one.spacing, {false, !whole, false},
+                                               one.blocks, whole ? MPI_COMM_SELF : MPI_COMM_WORLD);
     fill_system(problem, one.medium, one.open, 3);
     const BlockFields v = problem.system.rhs;
     fill_system(problem, one.medium, one.open, 4);
     const BlockFields w = problem.system.rhs;
     Multigrid multigrid(problem.mesh, problem.singular);
     multigrid.setup(problem.system);
+    const auto each = [&](auto&& body) {
+      for (std::size_t b = 0; b < problem.mesh.local.size(); ++b) {
+        const Layout& layout = problem.mesh.local[b].layout;
+        for_rows(layout, [&](std::ptrdiff_t row, int j, int k) {
+          for (int i = 0; i < layout.cells[0]; ++i)
+            body(b, row + i, multigrid.layout(b).at(i, j, k));
+        });
+      }
+    };
+    const auto cycle = [&](const BlockFields& residual) {
+      each([&](std::size_t b, std::ptrdiff_t c, std::ptrdiff_t at) {
+        multigrid.residual(b)[at] = float(residual[b][c]);
+      });
+      multigrid.apply();
+      BlockFields out = make_fields(problem.mesh);
+      each([&](std::size_t b, std::ptrdiff_t c, std::ptrdiff_t at) {
+        out[b][c] = multigrid.correction(b)[at];
+      });
+      return out;
+    };
     const auto product = [&](const BlockFields& a, const BlockFields& b) {
       double sum = 0;
       for_each_cell(problem.mesh, [&](std::size_t block, std::ptrdiff_t c, const Vec3&) {
         sum += a[block][c] * b[block][c];
       });
-      MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+      MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, problem.mesh.comm);
       return sum;
     };
-    const BlockFields v_image = multigrid.apply(v), w_image = multigrid.apply(w);
+    const BlockFields v_image = cycle(v), w_image = cycle(w);
     const double vv = product(v, v_image), ww = product(w, w_image);
     EXPECT_GT(vv, 0);
     EXPECT_GT(ww, 0);
-    EXPECT_NEAR(product(v, w_image), product(w, v_image), 1e-12 * std::sqrt(vv * ww));
+    constexpr double rounding = 2e-7; // of single precision
+    EXPECT_NEAR(product(v, w_image), product(w, v_image), rounding * std::sqrt(vv * ww));
   }
 }
 

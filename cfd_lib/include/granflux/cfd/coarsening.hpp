@@ -47,6 +47,9 @@ private:
   std::vector<std::array<double, 3>> strength_;
 };
 
+/// A direction of one cell that is its own neighbour: its faces couple nothing.
+bool closed_on_itself(const Mesh& mesh, int block, int direction);
+
 /// The mesh of joined cells: block sizes, ranks and links, without geometry or boundaries.
 Mesh join_cells(const Mesh& mesh, const Pairings& pairings);
 

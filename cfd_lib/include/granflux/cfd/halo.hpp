@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <vector>
 
@@ -17,10 +19,16 @@ public:
   /// For the `layers` ghost layers next to the block's sides.
   explicit Halo(const Mesh& mesh, int layers = ghost_layers);
 
+  /// Position of a cell of a local block (index into Mesh::local) in fields of another layout.
+  using Position = std::function<std::ptrdiff_t(std::size_t block, const Index3& cell)>;
+  Halo(const Mesh& mesh, int layers, const Position& position);
+
   /// Exchanges the ghost layers of the given fields (each on all local blocks) in one message
   /// per neighbouring rank. Collective.
   void exchange(std::initializer_list<BlockFields*> fields) const;
   void exchange(BlockVectors& vectors) const;
+  /// One field in single precision; blocks[b] is the memory of local block b. Collective.
+  void exchange(const std::vector<float*>& blocks) const;
 
 private:
   struct Copy {
@@ -30,9 +38,9 @@ private:
   struct Message {
     int rank = 0;
     std::vector<std::pair<int, std::ptrdiff_t>> cells; ///< local block and position
-    mutable std::vector<double> values; ///< kept, so that an exchange allocates nothing
+    mutable std::vector<std::byte> values; ///< kept, so that an exchange allocates nothing
   };
-  template <class At> void exchange_values(int count, At&& at) const;
+  template <class Value, class At> void exchange_values(int count, At&& at) const;
 
   MPI_Comm comm_;
   std::vector<Copy> copies_;

@@ -5,13 +5,14 @@
 #include <memory>
 #include <vector>
 
+#include <granflux/cfd/level_field.hpp>
 #include <granflux/cfd/mesh.hpp>
 #include <granflux/cfd/pressure_solver.hpp>
 
 namespace granflux::cfd {
 
 /// One multigrid cycle for A = the negated left-hand side of PressureSystem, as a symmetric
-/// positive definite preconditioner (docs/theory.md, "Pressure solver").
+/// positive definite preconditioner (docs/theory.md, "Pressure solver"), in single precision.
 ///
 /// Levels are made of joined cells (coarsening.hpp), fixed at construction; their coefficients are
 /// sums of fine ones over the distance that has grown. The smoother is a Chebyshev polynomial in
@@ -21,16 +22,19 @@ public:
   Multigrid(const Mesh& mesh, bool singular);
   ~Multigrid();
 
-  /// Collective, once for every system; keeps references to its coefficients. Throws
-  /// NumericalError on all ranks where a cell has no positive coefficient.
+  /// Collective, once for every system; costs little where the coefficients are those of the
+  /// system before. Throws NumericalError on all ranks where a cell has no positive coefficient.
   void setup(const PressureSystem& system);
 
-  /// Collective: the cycle applied to `residual`. The result lasts until the next call.
-  const BlockFields& apply(const BlockFields& residual);
-
-  /// image = A q on interior cells; fills the ghosts of q behind links, and takes those at
-  /// boundaries for 0. Returns the dot product of q and image over all ranks. Collective.
-  double multiply(BlockFields& q, BlockFields& image);
+  /// The power of 2 by which the coefficients are multiplied, to suit single precision.
+  [[nodiscard]] double scale() const;
+  [[nodiscard]] const LevelLayout& layout(std::size_t block) const;
+  /// Of a local block: what apply() works on. The largest should be near 1.
+  float* residual(std::size_t block);
+  /// Collective: correction = about inverse(scale A) residual, ghosts behind links filled; it
+  /// lasts until the next call.
+  void apply();
+  [[nodiscard]] const float* correction(std::size_t block) const;
 
   /// Cells of all blocks on each level, finest first.
   [[nodiscard]] std::vector<long> level_sizes() const;

@@ -25,12 +25,20 @@ struct PressureReport {
   double residual = 0; ///< norm of the remaining error in the equations over that of rhs
 };
 
+/// What a solver that iterates starts from.
+enum class FirstGuess {
+  zero,
+  given ///< what `p` holds on interior cells
+};
+
 class PressureSolver {
 public:
   virtual ~PressureSolver() = default;
-  /// Collective. `p` receives the solution on interior cells, whatever it held. A singular
-  /// system (no pressure given anywhere) gets the solution of zero mean.
-  virtual PressureReport solve(const PressureSystem& system, BlockFields& p) = 0;
+  /// Collective. `p` receives the solution on interior cells. A singular system (no pressure given
+  /// anywhere) gets the solution of zero mean. When it ends does not depend on the first guess.
+  /// Coefficients that are those of the system before are recognised and cost next to nothing.
+  virtual PressureReport solve(const PressureSystem& system, BlockFields& p,
+                               FirstGuess guess = FirstGuess::zero) = 0;
 };
 
 /// Gathers the system on rank 0 and solves it there with Eigen: directly (LDL^T) up to

@@ -3,15 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <granflux/cfd/sweep.hpp>
 
 namespace granflux::cfd {
 
-/// body(row, j, k) for every row of interior cells along i, row the position of its first; rows
-/// are dealt to the threads.
-template <class Body> void for_rows(const Layout& layout, Body&& body) {
+/// body(row, j, k) for every row of interior cells along i, row the position of its first (Layout
+/// or LevelLayout); rows are dealt to the threads.
+template <class AnyLayout, class Body> void for_rows(const AnyLayout& layout, Body&& body) {
   const int nj = layout.cells[1], nk = layout.cells[2];
 #pragma omp parallel for collapse(2)                                                               \
     schedule(static) if (layout.interior() >= smallest_parallel_sweep)
@@ -20,18 +21,21 @@ template <class Body> void for_rows(const Layout& layout, Body&& body) {
       body(layout.at(0, j, k), j, k);
 }
 
-/// Sum of term(row) over the rows, in their order whatever the number of threads; `sums` is work
-/// space that is kept by the caller, so that nothing is allocated in a loop.
-template <class Term>
-double sum_rows(const Layout& layout, std::vector<double>& sums, Term&& term) {
-  const auto nj = std::size_t(layout.cells[1]);
-  sums.resize(std::max(sums.size(), nj * std::size_t(layout.cells[2])));
+/// Sums of what term(row, j, k) returns, an array of numbers, over the rows in their order whatever
+/// the number of threads; `room` is work space that is kept by the caller, so that nothing is
+/// allocated in a loop.
+template <std::size_t count, class Term>
+std::array<double, count> sum_rows(const Layout& layout, std::vector<double>& room, Term&& term) {
+  const auto nj = std::size_t(layout.cells[1]), rows = nj * std::size_t(layout.cells[2]);
+  room.resize(std::max(room.size(), count * rows));
   for_rows(layout, [&](std::ptrdiff_t row, int j, int k) {
-    sums[std::size_t(j) + nj * std::size_t(k)] = term(row);
+    const std::array<double, count> sums = term(row, j, k);
+    std::copy(sums.begin(), sums.end(), &room[count * (std::size_t(j) + nj * std::size_t(k))]);
   });
-  double total = 0;
-  for (std::size_t r = 0; r < nj * std::size_t(layout.cells[2]); ++r)
-    total += sums[r];
+  std::array<double, count> total{};
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t n = 0; n < count; ++n)
+      total[n] += room[count * r + n];
   return total;
 }
 

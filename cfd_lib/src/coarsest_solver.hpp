@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <memory>
-#include <vector>
 
-#include <granflux/cfd/mesh.hpp>
+#include "multigrid_level.hpp"
 
 namespace granflux::cfd {
 
@@ -18,12 +16,11 @@ public:
   CoarsestSolver(const Mesh& mesh, bool singular);
   ~CoarsestSolver();
 
-  /// Collective. Coefficients per local block and direction, as in PressureSystem. Throws
-  /// NumericalError on all ranks if the matrix is not positive definite.
-  void factorise(const std::vector<std::array<Field, 3>>& coefficient);
-  /// Collective: x = inverse(A) rhs with A the negated left-hand side of PressureSystem; of zero
-  /// mean, and for the part of rhs of zero mean, where A is singular.
-  void solve(const BlockFields& rhs, BlockFields& x);
+  /// Collective. Throws NumericalError on all ranks if the matrix is not positive definite.
+  void factorise(const Level& level);
+  /// Collective: x = inverse(A) rhs; of zero mean, and for the part of rhs of zero mean, where A
+  /// is singular.
+  void solve(Level& level);
 
 private:
   struct Impl;

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <granflux/cfd/coarsening.hpp>
+#include <granflux/cfd/halo.hpp>
+#include <granflux/cfd/level_field.hpp>
+#include <granflux/cfd/mesh.hpp>
+
+namespace granflux::cfd {
+
+/// What one block holds on one level of the multigrid solver.
+struct LevelBlock {
+  LevelBlock(Index3 cells, int outer);
+
+  LevelLayout layout;
+  std::array<FloatField, 3> coefficient; ///< of low faces; 0 where a direction couples nothing
+  FloatField inverse_diagonal;           ///< 0 where nothing couples to a cell
+  FloatField rhs;
+  FloatField x, spare; ///< the iterate and its next one; ghosts at boundaries stay 0
+
+  /// Planes are swept along `outer`, one of j and k, rows in a plane along `inner`.
+  int inner, outer;
+  /// Per thread: planes of the iterates between x and the next x, with ghosts that stay 0.
+  std::vector<FloatField> planes;
+};
+
+/// What a face loses where coarse cells reach across a link: the factor of its coefficient is
+/// that for a boundary times this.
+struct LinkFactor {
+  std::size_t block; ///< index into Mesh::local
+  int direction;
+  IndexBox faces;
+  float factor;
+};
+
+struct Level {
+  explicit Level(const Mesh& finest);
+  Level(const Mesh& m, const Level& finer);
+
+  const Mesh& mesh;
+  bool linked; ///< whether cells of any rank have neighbours in other blocks, or across a period
+  Halo halo;
+  std::vector<LevelBlock> blocks; ///< as Mesh::local
+
+  // Towards the next coarser level.
+  Pairings pairings; ///< of all blocks
+  std::vector<LinkFactor> link_factors;
+  int visits = 1; ///< cycles of the next level in one of this
+
+  /// Fills the ghosts of a field behind links; nothing to do where nothing is linked.
+  void exchange(FloatField LevelBlock::*field);
+
+private:
+  Level(const Mesh& m, std::vector<LevelBlock> b);
+
+  std::vector<float*> exchanged_; ///< kept, so that nothing is allocated in a loop
+};
+
+/// Factors for the faces of the links of `coarse`.
+std::vector<LinkFactor> link_factors(const Mesh& fine, const Mesh& coarse,
+                                     const Pairings& pairings);
+
+/// Coefficients and inverse diagonal of `coarse` from those of `fine`: sums over the faces that
+/// join, over the distance that has grown.
+void join_level(const Level& fine, Level& coarse);
+
+/// What smoothing starts from.
+enum class Start {
+  zero,
+  iterate,  ///< x
+  corrected ///< x and what the coarse level adds
+};
+
+/// Chebyshev smoothing of A x = rhs on all blocks of a level, then the residual summed over the
+/// cells that join into the right-hand side of `coarse`. Collective.
+void smooth_and_restrict(Level& level, Level& coarse, Start start);
+
+/// The correction from `coarse` added to x, then Chebyshev smoothing. Collective.
+void correct_and_smooth(const Level& coarse, Level& level);
+
+} // namespace granflux::cfd

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Chebyshev smoothing, with the transfers between levels in the same sweep. A block without links
+// is swept once: planes of successive iterates follow each other through the block, close enough
+// to stay in cache. Blocks with links need their neighbours' values after every step, and are
+// swept step by step.
+
+#include "multigrid_level.hpp"
+
+#include <algorithm>
+#include <omp.h>
+
+namespace granflux::cfd {
+
+namespace {
+
+/// Smoothing damps the part of the spectrum of A over its diagonal above a quarter of its upper
+/// bound, which is 2 for any matrix of this kind (Gershgorin); what lies below is for the coarse
+/// levels. Three steps leave 1/13 of it. Saad, Iterative Methods for Sparse Linear Systems,
+/// 2nd ed., algorithm 12.1.
+constexpr int smoothing_steps = 3;
+constexpr double spectrum_high = 2, spectrum_low = spectrum_high / 4;
+constexpr double spectrum_centre = (spectrum_high + spectrum_low) / 2;
+constexpr double spectrum_half_width = (spectrum_high - spectrum_low) / 2;
+constexpr float first_gain = float(1 / spectrum_centre);
+
+/// Step n of the iteration, from 1: x + keep (x - x_before) + gain (rhs - A x) / diagonal.
+struct Step {
+  float keep, gain;
+};
+
+constexpr std::array<Step, smoothing_steps + 1> make_steps() {
+  std::array<Step, smoothing_steps + 1> steps{};
+  constexpr double sigma = spectrum_centre / spectrum_half_width;
+  double rho = 1 / sigma;
+  steps[1] = {0, first_gain};
+  for (std::size_t n = 2; n < steps.size(); ++n) {
+    const double rho_new = 1 / (2 * sigma - rho);
+    steps[n] = {float(rho_new * rho), float(2 * rho_new / spectrum_half_width)};
+    rho = rho_new;
+  }
+  return steps;
+}
+constexpr std::array<Step, smoothing_steps + 1> steps = make_steps();
+
+constexpr std::size_t u(int i) {
+  return std::size_t(i);
+}
+
+/// A x for the cells of one row.
+struct RowOperator {
+  const float *x, *inner_low, *inner_high, *outer_low, *outer_high; ///< the row and those around
+  const float *ci, *c_inner, *c_inner_high, *c_outer, *c_outer_high;
+
+  /// Differences, not a diagonal: exact for constants whatever the coefficients, and what single
+  /// precision loses in the flux through a face one cell gets and the other gives.
+  float operator()(std::ptrdiff_t i) const {
+    const float here = x[i];
+    return ci[i] * (here - x[i - 1]) + ci[i + 1] * (here - x[i + 1]) +
+           c_inner[i] * (here - inner_low[i]) + c_inner_high[i] * (here - inner_high[i]) +
+           c_outer[i] * (here - outer_low[i]) + c_outer_high[i] * (here - outer_high[i]);
+  }
+};
+
+/// A plane of rows.
+template <class Value> struct Plane {
+  Value* first; ///< cell 0 of row 0
+  std::ptrdiff_t stride;
+  [[nodiscard]] Value* row(int j) const { return first + j * stride; }
+};
+
+/// A block as planes of rows, and how its cells join.
+struct Sweep {
+  Sweep(const LevelBlock& block, const std::array<Pairing, 3>* pairing)
+      : b(block), n(block.layout.cells[0]), n_inner(block.layout.cells[u(block.inner)]),
+        n_outer(block.layout.cells[u(block.outer)]) {
+    if (pairing)
+      along_row = (*pairing)[0], inner = (*pairing)[u(block.inner)],
+      outer = (*pairing)[u(block.outer)];
+  }
+  template <class Value> [[nodiscard]] Plane<Value> plane(Value* field, int k) const {
+    return plane_of(b, field, k);
+  }
+  /// Of a field of the block, or of the coarser block that this one joins into.
+  template <class Value>
+  [[nodiscard]] Plane<Value> plane_of(const LevelBlock& of, Value* field, int k) const {
+    return {field + of.layout.origin + k * of.layout.stride[u(b.outer)],
+            of.layout.stride[u(b.inner)]};
+  }
+  [[nodiscard]] RowOperator row_operator(const Plane<const float>& x, const Plane<const float>& low,
+                                         const Plane<const float>& high, int j, int k) const {
+    const std::ptrdiff_t row =
+        b.layout.origin + j * b.layout.stride[u(b.inner)] + k * b.layout.stride[u(b.outer)];
+    const float* c_inner = b.coefficient[u(b.inner)].data() + row;
+    const float* c_outer = b.coefficient[u(b.outer)].data() + row;
+    return {x.row(j),     x.row(j - 1),
+            x.row(j + 1), low.row(j),
+            high.row(j),  b.coefficient[0].data() + row,
+            c_inner,      c_inner + b.layout.stride[u(b.inner)],
+            c_outer,      c_outer + b.layout.stride[u(b.outer)]};
+  }
+
+  const LevelBlock& b;
+  int n, n_inner, n_outer;
+  Pairing along_row, inner, outer;
+};
+
+/// Sums of pairs of a fine row, added to the coarse row.
+void add_joined(const float* fine, int n, const Pairing& pairing, float* coarse, int N) {
+  if (!pairing.pairs) {
+#pragma omp simd
+    for (int I = 0; I < N; ++I)
+      coarse[I] += fine[I];
+    return;
+  }
+  const int first_whole = pairing.shift, end_whole = (n + pairing.shift) / 2;
+  const float* pair = fine - pairing.shift;
+#pragma omp simd
+  for (int I = first_whole; I < end_whole; ++I)
+    coarse[I] += pair[2 * I] + pair[2 * I + 1];
+  if (first_whole == 1)
+    coarse[0] += fine[0];
+  if (end_whole < N)
+    coarse[N - 1] += fine[n - 1];
+}
+
+/// corrected = x and the coarse row spread to its cells.
+void spread(const float* coarse, int N, const Pairing& pairing, const float* x, float* corrected,
+            int n) {
+  if (!pairing.pairs) {
+#pragma omp simd
+    for (int i = 0; i < n; ++i)
+      corrected[i] = x[i] + coarse[i];
+    return;
+  }
+  const int first_whole = pairing.shift, end_whole = (n + pairing.shift) / 2;
+  const float* from = x - pairing.shift;
+  float* to = corrected - pairing.shift;
+#pragma omp simd
+  for (int I = first_whole; I < end_whole; ++I) {
+    to[2 * I] = from[2 * I] + coarse[I];
+    to[2 * I + 1] = from[2 * I + 1] + coarse[I];
+  }
+  if (first_whole == 1)
+    corrected[0] = x[0] + coarse[0];
+  if (end_whole < N)
+    corrected[n - 1] = x[n - 1] + coarse[N - 1];
+}
+
+/// One row of a step; `before` is not looked at where step.keep is 0 or there is none.
+template <bool has_before>
+void step_row(const RowOperator& a, const float* rhs, const float* inverse, const float* before,
+              float* next, int n, const Step& step) {
+  const auto [keep, gain] = step;
+#pragma omp simd
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const float change = gain * inverse[i] * (rhs[i] - a(i));
+    if constexpr (has_before)
+      next[i] = a.x[i] + keep * (a.x[i] - before[i]) + change;
+    else
+      next[i] = (1 + keep) * a.x[i] + change;
+  }
+}
+
+/// The first step from zero: no neighbours.
+void first_row(const float* rhs, const float* inverse, float* next, int n) {
+#pragma omp simd
+  for (std::ptrdiff_t i = 0; i < n; ++i)
+    next[i] = first_gain * inverse[i] * rhs[i];
+}
+
+/// x of a plane and what the coarse plane adds.
+void correct_plane(const Sweep& s, const LevelBlock& coarse, int k, const Plane<float>& to) {
+  const auto x = s.plane(s.b.x.data(), k);
+  const auto from = s.plane_of(coarse, coarse.x.data(), s.outer.coarse(k));
+  for (int j = 0; j < s.n_inner; ++j)
+    spread(from.row(s.inner.coarse(j)), coarse.layout.cells[0], s.along_row, x.row(j), to.row(j),
+           s.n);
+}
+
+void first_plane(const Sweep& s, int k, const Plane<float>& to) {
+  const auto rhs = s.plane(s.b.rhs.data(), k), inverse = s.plane(s.b.inverse_diagonal.data(), k);
+  for (int j = 0; j < s.n_inner; ++j)
+    first_row(rhs.row(j), inverse.row(j), to.row(j), s.n);
+}
+
+/// `before` has no rows where it is zero, or not needed.
+void step_plane(const Sweep& s, int n, int k, const Plane<const float>& x,
+                const Plane<const float>& low, const Plane<const float>& high,
+                const Plane<const float>& before, const Plane<float>& to) {
+  const auto rhs = s.plane(s.b.rhs.data(), k), inverse = s.plane(s.b.inverse_diagonal.data(), k);
+  for (int j = 0; j < s.n_inner; ++j) {
+    const RowOperator a = s.row_operator(x, low, high, j, k);
+    if (before.first)
+      step_row<true>(a, rhs.row(j), inverse.row(j), before.row(j), to.row(j), s.n, steps[u(n)]);
+    else
+      step_row<false>(a, rhs.row(j), inverse.row(j), nullptr, to.row(j), s.n, steps[u(n)]);
+  }
+}
+
+/// The residual of a plane, summed into the plane of the coarse right-hand side that it joins.
+/// `row` is room for one row.
+void restrict_plane(const Sweep& s, LevelBlock& coarse, int k, const Plane<const float>& x,
+                    const Plane<const float>& low, const Plane<const float>& high, float* row) {
+  const auto rhs = s.plane(s.b.rhs.data(), k);
+  const int K = s.outer.coarse(k), N = coarse.layout.cells[0];
+  const auto sum = s.plane_of(coarse, coarse.rhs.data(), K);
+  for (int j = 0; j < s.n_inner; ++j) {
+    const int J = s.inner.coarse(j);
+    float* coarse_row = sum.row(J);
+    if (k == s.outer.first(K, s.n_outer) && j == s.inner.first(J, s.n_inner))
+      std::fill(coarse_row, coarse_row + N, 0.0F);
+    const RowOperator a = s.row_operator(x, low, high, j, k);
+    const float* r = rhs.row(j);
+#pragma omp simd
+    for (std::ptrdiff_t i = 0; i < s.n; ++i)
+      row[i] = r[i] - a(i);
+    add_joined(row, s.n, s.along_row, coarse_row, N);
+  }
+}
+
+/// Work space of one thread: of every iterate the three planes that others still need, a plane of
+/// zeros for what lies outside the block, and a row.
+class Window {
+public:
+  static constexpr int depth = 3;
+  static std::size_t size(const LevelBlock& b) {
+    return std::size_t(depth * (smoothing_steps + 1) + 1) * plane_size(b) +
+           std::size_t(row_size(b));
+  }
+  Window(const LevelBlock& b, float* memory)
+      : row_(row_size(b)), plane_(std::ptrdiff_t(plane_size(b))), memory_(memory),
+        n_outer_(b.layout.cells[u(b.outer)]) {}
+
+  /// Plane k of iterate n; zeros outside the block.
+  [[nodiscard]] Plane<float> at(int n, int k) const {
+    const bool inside = k >= 0 && k < n_outer_;
+    const int slot = inside ? depth * n + k % depth : depth * (smoothing_steps + 1);
+    return {memory_ + slot * plane_ + LevelLayout::line + row_, row_};
+  }
+  [[nodiscard]] float* row() const {
+    return memory_ + (depth * (smoothing_steps + 1) + 1) * plane_;
+  }
+
+private:
+  static std::ptrdiff_t row_size(const LevelBlock& b) { return b.layout.stride[1]; }
+  static std::size_t plane_size(const LevelBlock& b) {
+    return std::size_t(row_size(b) * (b.layout.cells[u(b.inner)] + 2) + 2 * LevelLayout::line);
+  }
+  std::ptrdiff_t row_, plane_;
+  float* memory_;
+  int n_outer_;
+};
+
+template <class Value> Plane<const Value> as_const(const Plane<Value>& p) {
+  return {p.first, p.stride};
+}
+
+/// All steps for the planes [begin, end) of a block without links, the last iterate into `spare`,
+/// its residual summed into `coarse` if it is given. What neighbouring slabs compute of the
+/// iterates between is computed here once more, so that slabs do not wait for each other.
+void sweep_slab(const Sweep& s, Start start, const LevelBlock* correction, LevelBlock* coarse,
+                LevelBlock& out, const Window& window, int begin, int end) {
+  const int last = smoothing_steps, first = start == Start::zero ? 1 : 0;
+  const int behind = coarse ? 1 : 0; // planes of the last iterate needed beyond the slab's
+  const auto at = [&](int n, int k) {
+    return n == 0 && start == Start::iterate ? s.plane(s.b.x.data(), k) : as_const(window.at(n, k));
+  };
+  const auto from = [&](int n) { return std::max(begin - (last - n) - behind, 0); };
+  const auto to = [&](int n) { return std::min(end + (last - n) + behind, s.n_outer); };
+  for (int front = from(first) + first; front < end + last + behind; ++front) {
+    for (int n = first; n <= last; ++n) {
+      const int k = front - n;
+      if (k < from(n) || k >= to(n))
+        continue;
+      const bool store = n == last && k >= begin && k < end;
+      const Plane<float> next =
+          n == last && !coarse ? s.plane(out.spare.data(), k) : window.at(n, k);
+      if (n == 0 && start == Start::corrected)
+        correct_plane(s, *correction, k, next);
+      else if (n == 1 && start == Start::zero)
+        first_plane(s, k, next);
+      else if (n > 0) {
+        const bool has_before = n - 2 >= first;
+        step_plane(s, n, k, at(n - 1, k), at(n - 1, k - 1), at(n - 1, k + 1),
+                   has_before ? at(n - 2, k) : Plane<const float>{nullptr, 0}, next);
+      }
+      if (store && coarse) {
+        const auto kept = s.plane(out.spare.data(), k);
+        for (int j = 0; j < s.n_inner; ++j)
+          std::copy(next.row(j), next.row(j) + s.n, kept.row(j));
+      }
+    }
+    const int k = front - last - 1;
+    if (coarse && k >= begin && k < end)
+      restrict_plane(s, *coarse, k, at(last, k), at(last, k - 1), at(last, k + 1), window.row());
+  }
+}
+
+/// Makes room for as many threads as may sweep the block.
+void make_room(LevelBlock& b) {
+  const bool parallel = b.layout.interior() >= smallest_parallel_sweep;
+  const auto threads = std::size_t(parallel ? omp_get_max_threads() : 1);
+  if (b.planes.size() < threads)
+    b.planes.resize(threads);
+}
+
+/// That of this thread, touched first by it.
+float* own_room(LevelBlock& b) {
+  FloatField& room = b.planes[u(omp_get_thread_num())];
+  if (!room.data())
+    room = FloatField(Window::size(b));
+  return room.data();
+}
+
+/// sweep_slab of a whole block, dealt to the threads.
+void sweep_block(LevelBlock& b, const std::array<Pairing, 3>& pairing, Start start,
+                 const LevelBlock* correction, LevelBlock* coarse) {
+  const Sweep s(b, &pairing);
+  make_room(b);
+  const int N = s.outer.coarse(s.n_outer - 1) + 1; // coarse planes: a slab begins where one does
+#pragma omp parallel if (b.layout.interior() >= smallest_parallel_sweep)
+  {
+    const int threads = omp_get_num_threads(), thread = omp_get_thread_num();
+    const int begin = s.outer.first(int(long(N) * thread / threads), s.n_outer);
+    const int end = s.outer.first(int(long(N) * (thread + 1) / threads), s.n_outer);
+    if (begin < end)
+      sweep_slab(s, start, correction, coarse, b, Window(b, own_room(b)), begin, end);
+  }
+  std::swap(b.x, b.spare);
+}
+
+/// body(sweep, block, plane) for all planes of all blocks of a level, dealt to the threads.
+template <class Body> void for_planes(Level& level, Body&& body) {
+  for (std::size_t b = 0; b < level.blocks.size(); ++b) {
+    LevelBlock& block = level.blocks[b];
+    const Pairings& pairings = level.pairings;
+    const Sweep s(block, pairings.empty() ? nullptr : &pairings[u(level.mesh.local[b].id)]);
+#pragma omp parallel for schedule(static) if (block.layout.interior() >= smallest_parallel_sweep)
+    for (int k = 0; k < s.n_outer; ++k)
+      body(s, b, k);
+  }
+}
+
+/// Step by step, for levels with links.
+void smooth_by_steps(Level& level, Start start) {
+  if (start == Start::zero) {
+    for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
+      first_plane(s, k, s.plane(level.blocks[b].x.data(), k));
+    });
+  }
+  for (int n = start == Start::zero ? 2 : 1; n <= smoothing_steps; ++n) {
+    level.exchange(&LevelBlock::x);
+    const bool has_before = n > (start == Start::zero ? 2 : 1);
+    for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
+      LevelBlock& block = level.blocks[b];
+      const auto x = [&](int plane) { return as_const(s.plane(block.x.data(), plane)); };
+      const Plane<float> next = s.plane(block.spare.data(), k);
+      step_plane(s, n, k, x(k), x(k - 1), x(k + 1),
+                 has_before ? as_const(next) : Plane<const float>{nullptr, 0}, next);
+    });
+    for (LevelBlock& block : level.blocks)
+      std::swap(block.x, block.spare);
+  }
+}
+
+} // namespace
+
+void smooth_and_restrict(Level& level, Level& coarse, Start start) {
+  if (!level.linked) {
+    for (std::size_t b = 0; b < level.blocks.size(); ++b)
+      sweep_block(level.blocks[b], level.pairings[u(level.mesh.local[b].id)], start, nullptr,
+                  &coarse.blocks[b]);
+    return;
+  }
+  smooth_by_steps(level, start);
+  level.exchange(&LevelBlock::x);
+  for (std::size_t b = 0; b < level.blocks.size(); ++b) {
+    LevelBlock& block = level.blocks[b];
+    make_room(block);
+    const Sweep s(block, &level.pairings[u(level.mesh.local[b].id)]);
+    const int N = s.outer.coarse(s.n_outer - 1) + 1;
+#pragma omp parallel if (block.layout.interior() >= smallest_parallel_sweep)
+    {
+      float* row = Window(block, own_room(block)).row();
+#pragma omp for schedule(static)
+      for (int K = 0; K < N; ++K)
+        for (int k = s.outer.first(K, s.n_outer); k < s.outer.first(K + 1, s.n_outer); ++k) {
+          const auto x = [&](int plane) { return as_const(s.plane(block.x.data(), plane)); };
+          restrict_plane(s, coarse.blocks[b], k, x(k), x(k - 1), x(k + 1), row);
+        }
+    }
+  }
+}
+
+void correct_and_smooth(const Level& coarse, Level& level) {
+  if (!level.linked) {
+    for (std::size_t b = 0; b < level.blocks.size(); ++b)
+      sweep_block(level.blocks[b], level.pairings[u(level.mesh.local[b].id)], Start::corrected,
+                  &coarse.blocks[b], nullptr);
+    return;
+  }
+  for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
+    correct_plane(s, coarse.blocks[b], k, s.plane(level.blocks[b].x.data(), k));
+  });
+  smooth_by_steps(level, Start::corrected);
+}
+
+} // namespace granflux::cfd
