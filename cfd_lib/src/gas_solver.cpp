@@ -8,6 +8,7 @@
 
 #include <granflux/cfd/error.hpp>
 
+#include "block_geometry.hpp"
 #include "gas_state.hpp"
 
 namespace granflux::cfd {
@@ -265,11 +266,11 @@ const Fluid& GasSolver::fluid() const {
 
 namespace {
 
-/// Sum over the faces of a named boundary of two terms, over all ranks.
-template <class Term>
-std::array<double, 2> sum_boundary(const Mesh& mesh, const Boundaries& boundaries,
+/// Sum over the faces of a named boundary of N terms, over all ranks.
+template <std::size_t N, class Term>
+std::array<double, N> sum_boundary(const Mesh& mesh, const Boundaries& boundaries,
                                    const std::string& name, Term&& term) {
-  std::array<double, 2> sums{};
+  std::array<double, N> sums{};
   bool known = false;
   for (const BoundaryCondition& condition : boundaries.conditions())
     known = known || condition.name == name;
@@ -278,10 +279,11 @@ std::array<double, 2> sum_boundary(const Mesh& mesh, const Boundaries& boundarie
   for (const BoundaryPatch& patch : boundaries.patches())
     if (boundaries.condition(patch).name == name)
       for (const BoundaryFace& face : patch.faces) {
-        const std::array<double, 2> one = term(patch, face);
-        sums[0] += one[0], sums[1] += one[1];
+        const std::array<double, N> one = term(patch, face);
+        for (std::size_t n = 0; n < N; ++n)
+          sums[n] += one[n];
       }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), int(N), MPI_DOUBLE, MPI_SUM, mesh.comm);
   return sums;
 }
 
@@ -289,26 +291,63 @@ std::array<double, 2> sum_boundary(const Mesh& mesh, const Boundaries& boundarie
 
 double GasSolver::boundary_pressure(const std::string& boundary) const {
   const Impl& s = *impl_;
-  const auto [weighted, area] = sum_boundary(
-      s.mesh, s.boundaries, boundary, [&](const BoundaryPatch& patch, const BoundaryFace& face) {
-        const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
-        const VectorField& area_of = s.mesh.local[b].area[d];
-        const double size =
-            norm({area_of[0][face.face], area_of[1][face.face], area_of[2][face.face]});
-        return std::array<double, 2>{0.5 * size * (s.p[b][face.cell] + s.p[b][face.ghost]), size};
-      });
+  const auto [weighted, area] = sum_boundary<
+      2>(s.mesh, s.boundaries, boundary, [&](const BoundaryPatch& patch, const BoundaryFace& face) {
+    const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
+    const VectorField& area_of = s.mesh.local[b].area[d];
+    const double size = norm({area_of[0][face.face], area_of[1][face.face], area_of[2][face.face]});
+    return std::array<double, 2>{0.5 * size * (s.p[b][face.cell] + s.p[b][face.ghost]), size};
+  });
   return weighted / area;
 }
 
 double GasSolver::boundary_flux(const std::string& boundary) const {
   const Impl& s = *impl_;
-  return sum_boundary(
+  return sum_boundary<1>(
       s.mesh, s.boundaries, boundary, [&](const BoundaryPatch& patch, const BoundaryFace& face) {
-        return std::array<double, 2>{
+        return std::array<double, 1>{
             patch.outward *
-                s.flux[std::size_t(patch.block)][std::size_t(patch.direction)][face.face],
-            0};
+            s.flux[std::size_t(patch.block)][std::size_t(patch.direction)][face.face]};
       })[0];
+}
+
+Vec3 GasSolver::boundary_force(const std::string& boundary) const {
+  const Impl& s = *impl_;
+  const auto [x, y, z] = sum_boundary<3>(
+      s.mesh, s.boundaries, boundary, [&](const BoundaryPatch& patch, const BoundaryFace& face) {
+        const auto b = std::size_t(patch.block), d = std::size_t(patch.direction);
+        const Block& block = s.mesh.local[b];
+        const BoundaryCondition& condition = s.boundaries.condition(patch);
+        const std::ptrdiff_t c = face.cell;
+        const Vec3 outward = patch.outward * get(block.area[d], face.face);
+        double viscosity = s.fluid.viscosity;
+        if (!s.eddy_viscosity.empty())
+          viscosity += s.eddy_viscosity[b][c];
+        viscosity *= s.eps_middle[b][c];
+
+        Vec3 force = 0.5 * (s.p[b][c] + s.p[b][face.ghost]) * outward;
+        force -= viscosity * block.conductance[d][face.face] *
+                 (get(s.u[b], face.ghost) - get(s.u[b], c));
+        const bool given =
+            condition.kind == BoundaryKind::wall || condition.kind == BoundaryKind::inlet;
+        if (block.skew && given) {
+          const Vec3 cross_area = patch.outward * get(block.skew->cross[d], face.face);
+          const std::array<Vec3, 3> dual = dual_vectors(block, c);
+          for (int m = 0; m < 3; ++m) {
+            const Field& q = s.u[b][std::size_t(m)];
+            for (std::size_t n = 0; n < 3; ++n) {
+              const std::ptrdiff_t stride = block.layout.stride[n];
+              force[m] -=
+                  0.5 * viscosity * (q[c + stride] - q[c - stride]) * dot(dual[n], cross_area);
+            }
+          }
+        }
+        // On a wall n . transposed grad u is -omega x n: by continuity the normal velocity does not
+        // vary across it, and along it all that moves is the wall.
+        force += viscosity * cross(condition.angular_velocity, outward);
+        return std::array<double, 3>{force.x, force.y, force.z};
+      });
+  return {x, y, z};
 }
 
 std::vector<double> GasSolver::save() const {

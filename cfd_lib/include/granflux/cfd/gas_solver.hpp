@@ -105,6 +105,10 @@ public:
   [[nodiscard]] double boundary_pressure(const std::string& boundary) const;
   /// Volume flux out of the domain through a boundary [m3/s]. Collective.
   [[nodiscard]] double boundary_flux(const std::string& boundary) const;
+  /// Force of the gas on a boundary [N]: dynamic pressure and friction, by the whole stress
+  /// mu (grad u + transposed), with the fields as they are. Collective. Throws ConfigError for a
+  /// name that the gas has no boundary of.
+  [[nodiscard]] Vec3 boundary_force(const std::string& boundary) const;
 
   /// The solver's whole state of this rank's blocks, for a restart that continues bit for bit on
   /// the same blocks; load throws ConfigError if the size does not fit.
