@@ -1,0 +1,203 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The GranFlux developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs LIGGGHTS' own tutorials with liggghts and with granflux, and compares their last dumps.
+
+The scripts are those of the package liggghts-doc. Two things are changed, by rule: the number of steps of
+every `run` command is multiplied by a fraction (rounded up), and a `write_dump` is put behind the last
+line. Dumps must be equal to 1e-10, or, where particles have collided long enough to lose their memory,
+agree in the statistics of granflux-regress.
+
+Usage: tutorials.py [--table FILE.md] [--layouts 1x1,2x1] [NAME...]
+Environment: GRANFLUX, LIGGGHTS and MPIRUN name the programs. Exit code 0 if all agree.
+"""
+
+import argparse
+import math
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+
+from granflux_regress.bed_statistics import StatisticsOptions, compare_statistics, extent_of, floor_of, statistics_of
+from granflux_regress.compare import Comparison
+from granflux_regress.dump import read_dump
+from granflux_regress.tolerance import Tolerance
+
+PACKAGED = pathlib.Path("/usr/share/doc/liggghts/examples/LIGGGHTS/Tutorials_public")
+COLUMNS = "id type x y z vx vy vz fx fy fz omegax omegay omegaz tqx tqy tqz radius mass".split()
+EXACT = Tolerance(1e-10)
+TIMEOUT = 900  # s, a run
+
+
+@dataclass(frozen=True)
+class Tutorial:
+    name: str
+    script: str
+    fraction: float  # of the steps
+    more_columns: tuple = ()
+
+
+TUTORIALS = [
+    Tutorial("contactModels", "in.newModels", 0.3),
+    Tutorial("packing", "in.packing", 1.0),
+    Tutorial("chute_wear", "in.chute_wear", 0.3),
+    Tutorial("movingMeshGran", "in.movingMeshGran", 0.3),
+    Tutorial("insert_stream", "in.insert_stream", 0.4),
+    Tutorial("insert_stream", "in.insert_stream_reset_timestep", 0.1),  # goes on from the one before
+    Tutorial("cohesion", "in.cohesion", 0.6),
+    Tutorial("cohesion", "in.noCohesion", 0.6),
+    Tutorial("conveyor", "in.conveyor", 0.6),
+    Tutorial("heatTransfer_1", "in.heatGran", 0.4, ("f_Temp[0]",)),
+    Tutorial("heatTransfer_2", "in.heatGran", 0.4, ("f_Temp[0]",)),
+]
+
+
+@dataclass
+class Outcome:
+    tutorial: Tutorial
+    layout: str
+    steps: int = 0
+    particles: int = 0
+    exact: str = ""  # largest distance of a particle, relative to the largest of the snapshot
+    worst_statistic: str = ""  # in units of its tolerance
+    seconds: tuple = ()  # of liggghts, of granflux
+    verdict: str = "differs"
+
+    @property
+    def agrees(self):
+        return self.verdict.startswith("agree") or self.verdict == "equal"
+
+
+def shortened(text, tutorial):
+    """The script with fewer steps, and a dump at its end."""
+    values = dict(re.findall(r"(?m)^\s*variable\s+(\w+)\s+equal\s+(\d+)\s*$", text))
+
+    def fewer(match):
+        count = re.sub(r"\$\{(\w+)\}", lambda name: values[name[1]], match[2])
+        return f"{match[1]}{math.ceil(int(count) * tutorial.fraction)}"
+
+    text = re.sub(r"(?m)^(\s*run\s+)(\S+)", fewer, text)
+    columns = [*COLUMNS, *tutorial.more_columns]
+    form = " ".join(["%d %d"] + ["%.17g"] * (len(columns) - 2))
+    return f'{text}\nwrite_dump all custom end.dump {" ".join(columns)} modify sort id format "{form}"\n'
+
+
+def run(program, tutorial, folder, layout):
+    """Seconds of wall clock; the dump lies in the tutorial's folder below `folder`."""
+    ranks, threads = layout.split("x")
+    where = folder / tutorial.name
+    if not where.exists():  # a second script of a tutorial starts where the first one ended
+        shutil.copytree(PACKAGED / tutorial.name, where)
+        (where / "post").mkdir(exist_ok=True)
+    text = (PACKAGED / tutorial.name / tutorial.script).read_text()
+    (where / tutorial.script).write_text(shortened(text, tutorial))
+    command = [*shlex.split(os.environ["MPIRUN"]), "-n", ranks, program, "-in", tutorial.script, "-log", "none"]
+    start = time.perf_counter()
+    done = subprocess.run(command, cwd=where, env={**os.environ, "OMP_NUM_THREADS": threads}, timeout=TIMEOUT,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    seconds = time.perf_counter() - start
+    if done.returncode != 0 or "ERROR" in done.stdout:
+        reason = [line for line in done.stdout.splitlines() if "ERROR" in line] or [f"exit code {done.returncode}"]
+        raise RuntimeError(f"{os.path.basename(program)}: {reason[0]}")
+    for file in (where / "post").glob("*.vt*"):
+        file.unlink()
+    return seconds
+
+
+def compare(outcome, reference, other):
+    outcome.steps, outcome.particles = reference.step, len(reference.values)
+    comparison = Comparison(EXACT)
+    options = StatisticsOptions()
+    floor = floor_of(reference, options)
+    statistics = compare_statistics(reference.step, statistics_of(reference, options, floor),
+                                    statistics_of(other, options, floor), extent_of(reference), [])
+    worst = max((d for d in statistics if d.allowed > 0), key=lambda d: d.distance / d.allowed)
+    outcome.worst_statistic = f"{worst.distance / worst.allowed:.2g} ({worst.quantity})" if worst.distance else "0"
+    comparison.add(reference, other)
+    furthest = max(comparison.differences, key=lambda d: d.relative)
+    outcome.exact = f"{furthest.relative:.1e} ({furthest.quantity})" if furthest.relative else "0"
+    if comparison.equal:
+        outcome.verdict = "equal"
+    elif not any(d.failed for d in statistics):
+        outcome.verdict = "agree in statistics"
+
+
+def judged(tutorial, layout, folders):
+    outcome = Outcome(tutorial, layout)
+    try:
+        outcome.seconds = tuple(run(program, tutorial, folder, layout) for program, folder in folders.items())
+        dumps = [next(read_dump(folder / tutorial.name / "end.dump")) for folder in folders.values()]
+        compare(outcome, *dumps)
+    except (RuntimeError, subprocess.TimeoutExpired) as problem:
+        outcome.verdict = f"failed: {problem}"
+    return outcome
+
+
+HEAD = """# LIGGGHTS' own tutorials, with liggghts and with granflux
+
+Scripts of the package liggghts-doc, shortened by rule: the steps of every `run` command times the
+fraction given, rounded up; nothing else is changed but for a `write_dump` behind the last line. Compared
+is the state after the last step. Made again by
+
+    ctest --test-dir build/release -R regression.tutorials     # writes build/release/tutorials.md
+
+* *distance*: of the particle furthest from the stock run, relative to the largest value of the snapshot
+  (0: every digit is the same); equal means at most 1e-10.
+* *statistic*: the one nearest to its tolerance, in units of it
+  ([tolerances](../reference/granflux_regress.md)); it counts where the distance is more than 1e-10.
+* *layout*: ranks x threads of granflux; liggghts has the same ranks. Seconds are of wall clock on a
+  machine that did other work as well: no measurement of speed.
+
+| tutorial | fraction | last step | particles | layout | distance | statistic | liggghts, s | granflux, s | verdict |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+"""
+TAIL = """
+`contactModels/in.oldModels` is not in the table: liggghts 3.8.0 itself refuses it (Invalid pair style
+`gran/hertz/history`). The insertion of particles draws random numbers by rank, so runs of different
+numbers of ranks are different beds, and are not compared.
+"""
+
+
+def table(outcomes, state):
+    rows = [
+        f"| {o.tutorial.name}/{o.tutorial.script} | {o.tutorial.fraction:g} | {o.steps} | {o.particles} | {o.layout} | "
+        f"{o.exact} | {o.worst_statistic} | {' | '.join(f'{s:.1f}' for s in o.seconds or (0, 0))} | {o.verdict} |\n"
+        for o in outcomes
+    ]
+    return HEAD + "".join(rows) + TAIL + f"\n{state}\n"
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--table", type=pathlib.Path, metavar="FILE.md")
+    options.add_argument("--layouts", default="1x1,1x2,2x1", metavar="RANKSxTHREADS,...")
+    options.add_argument("names", nargs="*", metavar="NAME")
+    options = options.parse_args()
+    unknown = set(options.names) - {tutorial.name for tutorial in TUTORIALS}
+    if unknown:
+        sys.exit(f"no tutorial {', '.join(sorted(unknown))}; there are {', '.join(t.name for t in TUTORIALS)}")
+    chosen = [t for t in TUTORIALS if not options.names or t.name in options.names]
+    programs = [os.environ.get("LIGGGHTS", "liggghts"), os.environ.get("GRANFLUX", "granflux")]
+    outcomes = []
+    for layout in options.layouts.split(","):
+        with tempfile.TemporaryDirectory() as folder:
+            folders = {program: pathlib.Path(folder) / str(i) for i, program in enumerate(programs)}
+            for tutorial in chosen:
+                outcomes.append(judged(tutorial, layout, folders))
+                print(outcomes[-1], flush=True)
+    version = subprocess.run([programs[1], "-version"], capture_output=True, text=True, check=True).stdout
+    state = "State: " + ", ".join(line for line in version.splitlines() if line.startswith(("granflux", "host")))
+    if options.table:
+        options.table.write_text(table(outcomes, state))
+    return 0 if all(outcome.agrees for outcome in outcomes) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
