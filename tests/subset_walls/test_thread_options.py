@@ -3,6 +3,7 @@
 """Options -threads and -subset of the launcher."""
 
 import os
+import re
 import subprocess
 import unittest
 from unittest import mock
@@ -51,6 +52,23 @@ class ThreadOptions(HostTest):
 
     def test_switched_off(self):
         self.run_script(BED, options=["-subset", "off", "-threads", "2"])
+
+    def test_report_at_the_end_of_a_run(self):
+        table = r"granflux: particle work of 2 ranks x 2 threads, (\d+) particles, (\d+) steps"
+        output = self.run_script(BED + "run 3 pre no\n", ranks=2, options=["-threads", "2"])
+        self.assertEqual(re.findall(table, output), [("729", "1"), ("729", "99")])
+        last = output[output.rindex("granflux: particle work"):]
+        rows = {name.strip(): [float(word) for word in words.split()] for name, words in
+                re.findall(r"^  ([a-z][a-z ]*?) {2,}([-\d. ]+)$", last, re.M)}
+        parts = [rows[name][0] for name in ("contacts", "walls", "integration", "other fixes",
+                                            "neighbour lists", "communication", "output")]
+        self.assertTrue(all(seconds >= 0 for seconds in parts))
+        self.assertLessEqual(sum(parts), rows["total"][0] * 1.001 + 1e-3)
+        self.assertAlmostEqual(rows["particles a rank"][0], 729 / 2, delta=1)
+        self.assertAlmostEqual(rows["particles a thread"][0], 729 / 4, delta=1)
+        self.assertGreater(rows["ghosts a rank"][0], 0)
+        off = self.run_script(BED, ranks=2, options=["-threads", "2", "-subset", "off"])
+        self.assertNotIn("particle work", off)
 
     def test_options_stay_out_of_the_script(self):
         """LIGGGHTS sees its own options only, wherever ours stand."""

@@ -8,11 +8,15 @@
 
 namespace granflux::particle_subset {
 
+/// Work on fewer particles takes less time than to wake a team of threads for it.
+constexpr int least_for_team = 1024;
+
 /// Calls work(range) once on every OpenMP thread, with the thread's share of the particles
-/// 0 ... count - 1. work must write what belongs to its particles only.
+/// 0 ... count - 1, or once for all of them if they are few. work must write what belongs to its
+/// particles only.
 template <class Work> void for_each_subset(int count, Work&& work) {
-  const Subset subset(count, omp_get_max_threads());
-  if (subset.threads() == 1) { // no team to wake
+  const Subset subset(count, count < least_for_team ? 1 : omp_get_max_threads());
+  if (subset.threads() == 1) {
     work(subset.of(0));
     return;
   }

@@ -3,8 +3,12 @@
 
 #include "verlet.hpp"
 
+#include <cstdio>
 #include <cstring>
+#include <string>
 #include <string_view>
+
+#include <omp.h>
 
 #include <liggghts/atom.h>
 
@@ -22,6 +26,7 @@
 #include "fix_nve_sphere.hpp"
 #include "neighbor.hpp"
 #include "team.hpp"
+#include "work_times.hpp"
 
 namespace granflux::particle_subset {
 
@@ -34,6 +39,10 @@ using LAMMPS_NS::bigint;
 bool moves_meshes_only(const LAMMPS_NS::Fix& fix) {
   const std::string_view style = fix.style;
   return style.starts_with("mesh/surface") || style.starts_with("move/mesh");
+}
+
+bool is_wall(const LAMMPS_NS::Fix& fix) {
+  return std::string_view(fix.style).starts_with("wall/");
 }
 
 /// True if every fix that is called at one of `stages` is FixNveSphere or moves meshes only.
@@ -89,46 +98,86 @@ void Verlet::run(int steps) {
   // Without a setup the script may have moved particles since the lists were built.
   if (auto* own = dynamic_cast<Neighbor*>(neighbor))
     own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
-  set_up_ = false;
   may_owe_ = fixes_that_may_owe(*modify);
+  load_ = {};
+  WorkTimes& times = work_times();
+  times = {};
+  {
+    const Lap lap(times.total);
+    run_steps(steps);
+  }
+  // A run that continues another, `pre no`, does so silently.
+  if (set_up_ && load_.steps > 0)
+    report();
+  set_up_ = false;
+}
 
+void Verlet::report() {
+  load_.particles /= load_.steps;
+  load_.ghosts /= load_.steps;
+  load_.threads = omp_get_max_threads();
+  const std::string text = work_report(work_times(), load_, world);
+  if (comm->me != 0)
+    return;
+  for (FILE* file : {screen, logfile})
+    if (file)
+      std::fputs(text.c_str(), file);
+}
+
+void Verlet::run_steps(int steps) {
+  WorkTimes& times = work_times();
   for (int i = 0; i < steps; ++i) {
     const bigint now = ++update->ntimestep;
     ev_set(now);
-
-    if (modify->n_pre_initial_integrate)
-      modify->pre_initial_integrate();
-    modify->initial_integrate(vflag);
-    owed_ = false;
-    if (modify->n_post_integrate)
-      modify->post_integrate();
-
-    if (neighbor->decide()) {
+    {
+      const Lap lap(times.integration);
+      if (modify->n_pre_initial_integrate)
+        modify->pre_initial_integrate();
+      modify->initial_integrate(vflag);
+      owed_ = false;
+      if (modify->n_post_integrate)
+        modify->post_integrate();
+    }
+    if (lists_have_aged()) {
       exchange_and_build_lists(now);
     } else {
+      const Lap lap(times.communication);
       timer->stamp();
       comm->forward_comm();
       timer->stamp(TIME_COMM);
     }
-
-    clear_forces();
-    if (modify->n_pre_force)
-      modify->pre_force(vflag);
+    ++load_.steps;
+    load_.particles += atom->nlocal;
+    load_.ghosts += atom->nghost;
+    {
+      const Lap lap(times.other_fixes);
+      clear_forces();
+      if (modify->n_pre_force)
+        modify->pre_force(vflag);
+    }
     timer->stamp();
     if (pair_compute_flag) {
-      force->pair->compute(eflag, vflag);
+      const double lists_before = times.contact_lists;
+      {
+        const Lap lap(times.contacts);
+        force->pair->compute(eflag, vflag);
+      }
+      times.contacts -= times.contact_lists - lists_before;
       timer->stamp(TIME_PAIR);
     }
-
-    if (modify->n_post_force)
-      modify->post_force(vflag);
-    if (modify->n_pre_final_integrate)
-      modify->pre_final_integrate();
-    final_integrate(i + 1 == steps || now == output->next);
-    if (modify->n_end_of_step)
+    post_force();
+    {
+      const Lap lap(times.integration);
+      if (modify->n_pre_final_integrate)
+        modify->pre_final_integrate();
+      final_integrate(i + 1 == steps || now == output->next);
+    }
+    if (modify->n_end_of_step) {
+      const Lap lap(times.other_fixes);
       modify->end_of_step();
-
+    }
     if (now == output->next) {
+      const Lap lap(times.output);
       timer->stamp();
       output->write(now);
       timer->stamp(TIME_OUTPUT);
@@ -143,26 +192,53 @@ void Verlet::run(int steps) {
   }
 }
 
+bool Verlet::lists_have_aged() {
+  const Lap lap(work_times().neighbour_lists);
+  return neighbor->decide();
+}
+
 void Verlet::exchange_and_build_lists(bigint now) {
-  if (modify->n_pre_exchange)
-    modify->pre_exchange();
-  domain->pbc();
-  if (domain->box_change) {
-    domain->reset_box();
-    comm->setup();
-    if (neighbor->style)
-      neighbor->setup_bins();
+  WorkTimes& times = work_times();
+  {
+    const Lap lap(times.neighbour_lists);
+    if (modify->n_pre_exchange)
+      modify->pre_exchange();
   }
-  timer->stamp();
-  comm->exchange();
-  if (atom->sortfreq > 0 && now >= atom->nextsort)
-    atom->sort();
-  comm->borders();
-  timer->stamp(TIME_COMM);
+  {
+    const Lap lap(times.communication);
+    domain->pbc();
+    if (domain->box_change) {
+      domain->reset_box();
+      comm->setup();
+      if (neighbor->style)
+        neighbor->setup_bins();
+    }
+    timer->stamp();
+    comm->exchange();
+    if (atom->sortfreq > 0 && now >= atom->nextsort)
+      atom->sort();
+    comm->borders();
+    timer->stamp(TIME_COMM);
+  }
+  const Lap lap(times.neighbour_lists);
   if (modify->n_pre_neighbor)
     modify->pre_neighbor();
   neighbor->build(1);
   timer->stamp(TIME_NEIGHBOR);
+}
+
+void Verlet::post_force() {
+  WorkTimes& times = work_times();
+  for (int i = 0; i < modify->nfix; ++i)
+    if (modify->fmask[i] & POST_FORCE) {
+      LAMMPS_NS::Fix& fix = *modify->fix[i];
+      const Lap lap(is_wall(fix) ? times.walls : times.other_fixes);
+      if (modify->timing)
+        fix.begin_time_recording();
+      fix.post_force(vflag);
+      if (modify->timing)
+        fix.end_time_recording();
+    }
 }
 
 void Verlet::clear_forces() {

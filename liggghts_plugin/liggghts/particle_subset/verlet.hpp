@@ -6,6 +6,8 @@
 
 #include <liggghts/verlet.h>
 
+#include "work_report.hpp"
+
 namespace granflux::particle_subset {
 
 class FixNveSphere;
@@ -13,7 +15,7 @@ class FixNveSphere;
 /// LIGGGHTS' time step: the calls to fixes, pair style, communication and output in the order and
 /// under the conditions of run_style verlet. Forces are cleared by the thread that owns them, and
 /// the two half steps of velocity between two positions are taken in one pass over the particles
-/// where nobody looks in between.
+/// where nobody looks in between. Reports at the end of a run where the time went.
 class Verlet : public LAMMPS_NS::Verlet {
 public:
   using LAMMPS_NS::Verlet::Verlet;
@@ -22,13 +24,18 @@ public:
   void run(int steps) override;
 
 private:
+  void run_steps(int steps);
   void exchange_and_build_lists(LAMMPS_NS::bigint now);
+  void post_force();
+  [[nodiscard]] bool lists_have_aged();
+  void report();
   void clear_forces();
   void final_integrate(bool velocities_seen);
 
   bool set_up_ = false;                // setup() was called since the last run
   std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
   bool owed_ = false;
+  WorkLoad load_; // sums over the steps of a run
 };
 
 /// Puts Verlet in the place of LIGGGHTS' own where that is about to run spheres.
