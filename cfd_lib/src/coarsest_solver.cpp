@@ -143,8 +143,13 @@ void CoarsestSolver::solve(Level& level) {
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
     int n = s.first[std::size_t(level.mesh.local[b].id)];
-    for_each_in_order(block.layout,
-                      [&](std::ptrdiff_t c) { block.x.data()[c] = float(s.solution[n++]); });
+    double product = 0;
+    for_each_in_order(block.layout, [&](std::ptrdiff_t c) {
+      block.x.data()[c] = float(s.solution[n++]);
+      product += double(block.rhs.data()[c]) * double(block.x.data()[c]);
+    });
+    if (!block.products.empty()) // this level is also the finest: all in the first row's place
+      block.products.front() = product;
   }
 }
 

@@ -69,6 +69,9 @@ struct Multigrid::Impl {
       fine.visits = 4 * joined_cells <= cells ? 2 : 1;
     }
     coarsest = std::make_unique<CoarsestSolver>(levels.back()->mesh, singular);
+    for (LevelBlock& block : levels.front()->blocks)
+      block.products.resize(std::size_t(block.layout.cells[1]) *
+                            std::size_t(block.layout.cells[2]));
   }
 
   /// One cycle for the level's x.
@@ -224,9 +227,16 @@ const float* Multigrid::correction(std::size_t b) const {
   return impl_->levels.front()->blocks[b].x.data();
 }
 
-void Multigrid::apply() {
+double Multigrid::apply() {
+  Level& finest = *impl_->levels.front();
   impl_->cycle(0, Start::zero);
-  impl_->levels.front()->exchange(&LevelBlock::x);
+  finest.exchange(&LevelBlock::x);
+  double product = 0;
+  for (const LevelBlock& block : finest.blocks)
+    for (const double of_row : block.products)
+      product += of_row;
+  MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_SUM, finest.mesh.comm);
+  return product;
 }
 
 std::vector<long> Multigrid::level_sizes() const {

@@ -24,6 +24,8 @@ struct LevelBlock {
 
   /// Planes are swept along `outer`, one of j and k, rows in a plane along `inner`.
   int inner, outer;
+  /// Of rhs and x after correct_and_smooth, one a row; empty where they are not wanted.
+  std::vector<double> products;
   /// Per thread: planes of the iterates between x and the next x, with ghosts that stay 0.
   std::vector<FloatField> planes;
 };

@@ -61,8 +61,7 @@ public:
                              std::to_string(most_iterations) + " iterations: residual " +
                              std::to_string(left / size) + " of the right-hand side, " +
                              std::to_string(tolerance_) + " wanted");
-      multigrid_.apply();
-      const double rz_new = residual_times_correction();
+      const double rz_new = multigrid_.apply() / (residual_scale_ * residual_scale_);
       const double keep = report.iterations == 1 ? 0 : rz_new / rz;
       rz = rz_new;
       left = advance(rz / turn(keep), unit, scale_to_one(left), p);
@@ -189,17 +188,6 @@ private:
           rounded[i] = float(residual_scale_ * r[i]);
       });
     return left;
-  }
-
-  /// Of the rounded residual, the one that the correction is for; back in the residual's scale.
-  double residual_times_correction() {
-    const auto [product] = sums<1>([&](std::size_t b, std::ptrdiff_t, int j, int k) {
-      const float* r = rounded_residual(b, j, k);
-      const float* z = multigrid_.correction(b) + multigrid_.layout(b).at(0, j, k);
-      return std::array{
-          sum_row(cells_of_row(b), [=](std::ptrdiff_t i) { return double(r[i]) * double(z[i]); })};
-    });
-    return product / (residual_scale_ * residual_scale_);
   }
 
   /// image = s A direction for one row; returns the row's part of direction . image.

@@ -148,19 +148,24 @@ void spread(const float* coarse, int N, const Pairing& pairing, const float* x, 
     corrected[n - 1] = x[n - 1] + coarse[N - 1];
 }
 
-/// One row of a step; `before` is not looked at where step.keep is 0 or there is none.
-template <bool has_before>
-void step_row(const RowOperator& a, const float* rhs, const float* inverse, const float* before,
-              float* next, int n, const Step& step) {
+/// One row of a step; `before` is not looked at where there is none. Returns the row's part of
+/// rhs . next where that is asked for.
+template <bool has_before, bool has_product>
+double step_row(const RowOperator& a, const float* rhs, const float* inverse, const float* before,
+                float* next, int n, const Step& step) {
   const auto [keep, gain] = step;
-#pragma omp simd
+  double product = 0;
+#pragma omp simd reduction(+ : product)
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const float change = gain * inverse[i] * (rhs[i] - a(i));
+    float x = (1 + keep) * a.x[i] + change;
     if constexpr (has_before)
-      next[i] = a.x[i] + keep * (a.x[i] - before[i]) + change;
-    else
-      next[i] = (1 + keep) * a.x[i] + change;
+      x -= keep * before[i];
+    next[i] = x;
+    if constexpr (has_product)
+      product += double(rhs[i]) * double(x);
   }
+  return product;
 }
 
 /// The first step from zero: no neighbours.
@@ -185,17 +190,22 @@ void first_plane(const Sweep& s, int k, const Plane<float>& to) {
     first_row(rhs.row(j), inverse.row(j), to.row(j), s.n);
 }
 
-/// `before` has no rows where it is zero, or not needed.
+/// Step n of a plane. `before` has no rows where it is zero, or not needed; `products`, for the
+/// rows of the block, receives those of the right-hand side and the new iterate if it is given.
 void step_plane(const Sweep& s, int n, int k, const Plane<const float>& x,
                 const Plane<const float>& low, const Plane<const float>& high,
-                const Plane<const float>& before, const Plane<float>& to) {
+                const Plane<const float>& before, const Plane<float>& to, double* products) {
   const auto rhs = s.plane(s.b.rhs.data(), k), inverse = s.plane(s.b.inverse_diagonal.data(), k);
+  const Step& step = steps[u(n)];
   for (int j = 0; j < s.n_inner; ++j) {
     const RowOperator a = s.row_operator(x, low, high, j, k);
-    if (before.first)
-      step_row<true>(a, rhs.row(j), inverse.row(j), before.row(j), to.row(j), s.n, steps[u(n)]);
+    if (products)
+      products[k * s.n_inner + j] =
+          step_row<true, true>(a, rhs.row(j), inverse.row(j), before.row(j), to.row(j), s.n, step);
+    else if (before.first)
+      step_row<true, false>(a, rhs.row(j), inverse.row(j), before.row(j), to.row(j), s.n, step);
     else
-      step_row<false>(a, rhs.row(j), inverse.row(j), nullptr, to.row(j), s.n, steps[u(n)]);
+      step_row<false, false>(a, rhs.row(j), inverse.row(j), nullptr, to.row(j), s.n, step);
   }
 }
 
@@ -257,6 +267,11 @@ template <class Value> Plane<const Value> as_const(const Plane<Value>& p) {
   return {p.first, p.stride};
 }
 
+/// Where they are wanted.
+double* products_of(LevelBlock& b) {
+  return b.products.empty() ? nullptr : b.products.data();
+}
+
 /// All steps for the planes [begin, end) of a block without links, the last iterate into `spare`,
 /// its residual summed into `coarse` if it is given. What neighbouring slabs compute of the
 /// iterates between is computed here once more, so that slabs do not wait for each other.
@@ -284,7 +299,8 @@ void sweep_slab(const Sweep& s, Start start, const LevelBlock* correction, Level
       else if (n > 0) {
         const bool has_before = n - 2 >= first;
         step_plane(s, n, k, at(n - 1, k), at(n - 1, k - 1), at(n - 1, k + 1),
-                   has_before ? at(n - 2, k) : Plane<const float>{nullptr, 0}, next);
+                   has_before ? at(n - 2, k) : Plane<const float>{nullptr, 0}, next,
+                   n == last && !coarse ? products_of(out) : nullptr);
       }
       if (store && coarse) {
         const auto kept = s.plane(out.spare.data(), k);
@@ -358,7 +374,8 @@ void smooth_by_steps(Level& level, Start start) {
       const auto x = [&](int plane) { return as_const(s.plane(block.x.data(), plane)); };
       const Plane<float> next = s.plane(block.spare.data(), k);
       step_plane(s, n, k, x(k), x(k - 1), x(k + 1),
-                 has_before ? as_const(next) : Plane<const float>{nullptr, 0}, next);
+                 has_before ? as_const(next) : Plane<const float>{nullptr, 0}, next,
+                 n == smoothing_steps && start == Start::corrected ? products_of(block) : nullptr);
     });
     for (LevelBlock& block : level.blocks)
       std::swap(block.x, block.spare);

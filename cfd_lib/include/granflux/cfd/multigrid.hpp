@@ -32,8 +32,8 @@ public:
   /// Of a local block: what apply() works on. The largest should be near 1.
   float* residual(std::size_t block);
   /// Collective: correction = about inverse(scale A) residual, ghosts behind links filled; it
-  /// lasts until the next call.
-  void apply();
+  /// lasts until the next call. Returns their product over all ranks.
+  double apply();
   [[nodiscard]] const float* correction(std::size_t block) const;
 
   /// Cells of all blocks on each level, finest first.
