@@ -153,6 +153,10 @@ class Particles(RegressTest):
         self.expect(DIFFERS, self.regress(*texts, "--default", "2e-6"), "f_a[2]")
         self.expect(EQUAL, self.regress(*texts, "--default", "2e-6", "--vector", "a=f_a[1],f_a[2]"))
 
+    def test_lines_that_lammps_adds(self):
+        text = dump_text(bed())
+        self.expect(EQUAL, self.regress("ITEM: UNITS\nsi\nITEM: TIME\n0.5\n" + text, text))
+
     def test_compressed_dumps(self):
         path = self.folder / "a.dump.gz"
         path.write_bytes(gzip.compress(dump_text(bed()).encode()))

@@ -77,6 +77,9 @@ def _snapshots(lines, ignored, steps):
     while first := lines.next():
         if not first.strip():
             continue
+        if first.strip() in ("ITEM: UNITS", "ITEM: TIME"):  # of LAMMPS' dump_modify units, time
+            lines.next()
+            continue
         if not first.startswith("ITEM: TIMESTEP"):
             raise lines.bad(f"'{first.strip()[:60]}' where 'ITEM: TIMESTEP' should stand")
         line = lines.next()
