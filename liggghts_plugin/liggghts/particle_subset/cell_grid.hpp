@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <granflux/cfd/vec3.hpp>
+
+#include "particles.hpp"
+
+namespace granflux::particle_subset {
+
+/// Particles sorted into cells no smaller than the longest distance of a pair, so that the partners
+/// of a particle lie in its own cell and the 26 around it: nine runs of three cells that follow
+/// each other in memory. Within a cell by number. The same for every number of threads.
+class CellGrid {
+public:
+  /// All particles and ghosts. `reach`: longest distance between the centres of a pair. Uses
+  /// `threads` threads.
+  void sort(const Particles& particles, double reach, int threads);
+
+  /// What is needed of a particle to find partners, in sorted order.
+  struct Entry {
+    double x, y, z, radius;
+  };
+
+  /// Calls visit(Entry, number) for every particle in the cells around a place within the grid.
+  template <class Visit> void around(const Vec3& place, Visit&& visit) const {
+    const int centre = cell_of(place);
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy) {
+        const int middle = centre + dz * cells_[0] * cells_[1] + dy * cells_[0];
+        const int end = start_[std::size_t(middle + 2)];
+        for (int k = start_[std::size_t(middle - 1)]; k < end; ++k)
+          visit(entry_[std::size_t(k)], number_[std::size_t(k)]);
+      }
+  }
+
+private:
+  [[nodiscard]] int cell_of(const Vec3& place) const;
+  void choose_cells(const Particles& particles, double reach, int threads);
+
+  int cells_[3] = {1, 1, 1}; // with one empty layer around those in use
+  Vec3 origin_;
+  double inverse_size_[3] = {0, 0, 0};
+  std::vector<int> cell_;   // of each particle
+  std::vector<int> start_;  // of each cell in the sorted order, and the end
+  std::vector<int> filled_; // particles of each cell not yet placed
+  std::vector<int> number_;
+  std::vector<Entry> entry_;
+};
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+
+#include "contact_law.hpp"
+
+namespace granflux::particle_subset {
+
+/// Touching pairs side by side, an array per number, so that a law runs on vector registers. Small
+/// enough to stay in the first-level cache.
+struct ContactBatch {
+  static constexpr int capacity = 64;
+  static constexpr int lanes = 8; ///< evaluated together: the widest vector register
+  static_assert(capacity % lanes == 0);
+
+  using Column = double[capacity];
+  struct alignas(64) Vectors {
+    Column x, y, z;
+    [[nodiscard]] Vec3 at(int k) const { return {x[k], y[k], z[k]}; }
+    void set(int k, const Vec3& v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+  };
+
+  // Which pair: numbers of the particles, entry in the rows it comes from.
+  int i[capacity], j[capacity], entry[capacity];
+  Vectors separation;
+  alignas(64) Column distance_squared;
+  Vectors velocity, spin_i, spin_j;
+  alignas(64) Column radius_i, radius_j, mass_i, mass_j;
+  Vectors tangential_history, rolling_history;
+  Vectors force, torque_i, torque_j;
+
+  [[nodiscard]] TouchingPair pair(int k) const {
+    return {separation.at(k), distance_squared[k], velocity.at(k), spin_i.at(k), spin_j.at(k),
+            radius_i[k],      radius_j[k],         mass_i[k],      mass_j[k]};
+  }
+};
+
+/// The constants of a law for each pair of a batch, an array per number. Where there is one
+/// material they are the same for all and nothing is kept.
+template <class Law, bool one_material> class BatchConstants {
+public:
+  using Constants = typename Law::Constants;
+  explicit BatchConstants(const Constants& common) : common_(common) {}
+  void set(int, const Constants&) {}
+  [[nodiscard]] Constants at(int) const { return common_; }
+
+private:
+  Constants common_;
+};
+
+template <class Law> class BatchConstants<Law, false> {
+public:
+  using Constants = typename Law::Constants;
+  static constexpr std::size_t numbers = sizeof(Constants) / sizeof(double);
+  using Row = std::array<double, numbers>;
+  static_assert(sizeof(Row) == sizeof(Constants), "the constants of a law must be doubles");
+
+  explicit BatchConstants(const Constants&) {}
+  void set(int k, const Constants& constants) {
+    const Row row = std::bit_cast<Row>(constants);
+    for (std::size_t n = 0; n < numbers; ++n)
+      columns_[n][k] = row[n];
+  }
+  [[nodiscard]] Constants at(int k) const {
+    Row row;
+    for (std::size_t n = 0; n < numbers; ++n)
+      row[n] = columns_[n][k];
+    return std::bit_cast<Constants>(row);
+  }
+
+private:
+  alignas(64) ContactBatch::Column columns_[numbers] = {};
+};
+
+/// Evaluates the first `count` pairs, rounded up to whole groups of lanes: each lane goes through
+/// the same instructions, so that a pair's result does not depend on its place.
+template <class Law, bool one_material>
+[[gnu::flatten]] void evaluate(ContactBatch& b, int count,
+                               const BatchConstants<Law, one_material>& constants, double dt) {
+  const int whole_groups =
+      (count + ContactBatch::lanes - 1) / ContactBatch::lanes * ContactBatch::lanes;
+#pragma GCC ivdep
+  for (int k = 0; k < whole_groups; ++k) {
+    Vec3 tangential = b.tangential_history.at(k), rolling = b.rolling_history.at(k);
+    const ContactForce f = Law::force(constants.at(k), b.pair(k), dt, tangential, rolling);
+    b.force.set(k, f.force);
+    if constexpr (Law::turns) {
+      b.torque_i.set(k, f.torque_i);
+      b.torque_j.set(k, f.torque_j);
+    }
+    if constexpr (Law::has_tangential_history)
+      b.tangential_history.set(k, tangential);
+    if constexpr (Law::has_rolling_history)
+      b.rolling_history.set(k, rolling);
+  }
+}
+
+} // namespace granflux::particle_subset

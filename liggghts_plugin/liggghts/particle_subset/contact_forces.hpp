@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <algorithm>
+
+#include "contact_batch.hpp"
+#include "contact_lists.hpp"
+
+namespace granflux::particle_subset {
+
+/// The contact forces of one thread: goes along its rows, takes the pairs that touch and hands them
+/// to the law in batches. Writes only what belongs to the particles of the range.
+template <class Law, bool one_material> class ContactForces {
+public:
+  using Constants = typename Law::Constants;
+
+  /// `constants`: of each pair of the `types` types.
+  ContactForces(const Particles& particles, const Constants* constants, int types, double dt)
+      : p_(particles), constants_(constants), types_(types), dt_(dt),
+        batch_constants_(constants[0]) {}
+
+  void add(ThreadContacts& contacts) {
+    own_ = contacts.own;
+    add_rows(contacts.lower, [](int own, int partner) { return std::pair(partner, own); });
+    add_rows(contacts.upper, [](int own, int partner) { return std::pair(own, partner); });
+  }
+
+private:
+  template <class Ordered> void add_rows(ContactRows& rows, Ordered ordered) {
+    int count = 0;
+    for (int row = 0; row < own_.size(); ++row) {
+      const int end = rows.row_end(row);
+      for (int e = rows.row_begin(row); e < end; ++e) {
+        const auto [i, j] = ordered(own_.begin + row, rows.partner[std::size_t(e)]);
+        const Vec3 separation = p_.position[i] - p_.position[j];
+        const double squared = dot(separation, separation);
+        const double radii = p_.radius[i] + p_.radius[j];
+        batch_.i[count] = i;
+        batch_.j[count] = j;
+        batch_.entry[count] = e;
+        batch_.separation.set(count, separation);
+        batch_.distance_squared[count] = squared;
+        // Overwritten by the next pair unless this one touches.
+        count += squared < radii * radii;
+        if (count == ContactBatch::capacity) {
+          finish(rows, count);
+          count = 0;
+        }
+      }
+    }
+    finish(rows, count);
+  }
+
+  void finish(ContactRows& rows, int count) {
+    if (count == 0)
+      return;
+    gather(rows, count);
+    evaluate(batch_, count, batch_constants_, dt_);
+    scatter(rows, count);
+  }
+
+  void gather(const ContactRows& rows, int count) {
+    for (int k = 0; k < count; ++k) {
+      const int i = batch_.i[k], j = batch_.j[k];
+      batch_.velocity.set(k, p_.velocity[i] - p_.velocity[j]);
+      if constexpr (Law::turns) {
+        batch_.spin_i.set(k, p_.spin[i]);
+        batch_.spin_j.set(k, p_.spin[j]);
+      }
+      batch_.radius_i[k] = p_.radius[i];
+      batch_.radius_j[k] = p_.radius[j];
+      batch_.mass_i[k] = p_.mass[i];
+      batch_.mass_j[k] = p_.mass[j];
+      if constexpr (!one_material)
+        batch_constants_.set(k, constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1]);
+      if constexpr (Law::history > 0)
+        get_history(&rows.history[std::size_t(batch_.entry[k]) * Law::history], k);
+    }
+    if (p_.frozen_group)
+      freeze(count);
+    fill_up(count);
+  }
+
+  /// The reduced mass of a pair with a frozen particle is the mass of the other: m = 2m 2m / 4m.
+  void freeze(int count) {
+    for (int k = 0; k < count; ++k) {
+      const double mass_i = batch_.mass_i[k], mass_j = batch_.mass_j[k];
+      if (p_.groups[batch_.j[k]] & p_.frozen_group)
+        batch_.mass_i[k] = batch_.mass_j[k] = 2 * mass_i;
+      else if (p_.groups[batch_.i[k]] & p_.frozen_group)
+        batch_.mass_i[k] = batch_.mass_j[k] = 2 * mass_j;
+    }
+  }
+
+  /// The lanes of the last group that no pair is left for repeat the last pair.
+  void fill_up(int count) {
+    const int last = count - 1;
+    for (int k = count; k % ContactBatch::lanes != 0; ++k) {
+      const TouchingPair p = batch_.pair(last);
+      batch_.separation.set(k, p.separation);
+      batch_.distance_squared[k] = p.distance_squared;
+      batch_.velocity.set(k, p.velocity);
+      batch_.spin_i.set(k, p.spin_i);
+      batch_.spin_j.set(k, p.spin_j);
+      batch_.radius_i[k] = p.radius_i, batch_.radius_j[k] = p.radius_j;
+      batch_.mass_i[k] = p.mass_i, batch_.mass_j[k] = p.mass_j;
+      batch_constants_.set(k, batch_constants_.at(last));
+      batch_.tangential_history.set(k, batch_.tangential_history.at(last));
+      batch_.rolling_history.set(k, batch_.rolling_history.at(last));
+    }
+  }
+
+  void scatter(ContactRows& rows, int count) {
+    for (int k = 0; k < count; ++k) {
+      const int i = batch_.i[k], j = batch_.j[k];
+      const Vec3 force = batch_.force.at(k);
+      if (own_.holds(i)) {
+        p_.force[i] += force;
+        if constexpr (Law::turns)
+          p_.torque[i] += batch_.torque_i.at(k);
+      }
+      if (own_.holds(j)) {
+        p_.force[j] -= force;
+        if constexpr (Law::turns)
+          p_.torque[j] += batch_.torque_j.at(k);
+      }
+      if constexpr (Law::history > 0) {
+        const auto e = std::size_t(batch_.entry[k]);
+        rows.flags[e] |= Law::touched;
+        put_history(&rows.history[e * Law::history], k);
+      }
+    }
+  }
+
+  static Vec3 vector_at(const double* h) { return {h[0], h[1], h[2]}; }
+  static void set_vector(double* h, const Vec3& v) { h[0] = v.x, h[1] = v.y, h[2] = v.z; }
+
+  void get_history(const double* h, int k) {
+    if constexpr (Law::has_tangential_history)
+      batch_.tangential_history.set(k, vector_at(h));
+    if constexpr (Law::has_rolling_history)
+      batch_.rolling_history.set(k, vector_at(h + Law::rolling_offset));
+  }
+  void put_history(double* h, int k) const {
+    if constexpr (Law::has_tangential_history)
+      set_vector(h, batch_.tangential_history.at(k));
+    if constexpr (Law::has_rolling_history)
+      set_vector(h + Law::rolling_offset, batch_.rolling_history.at(k));
+  }
+
+  const Particles p_;
+  const Constants* constants_;
+  int types_;
+  double dt_;
+  Range own_;
+  ContactBatch batch_{};
+  BatchConstants<Law, one_material> batch_constants_;
+};
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "contact_lists.hpp"
+#include "material.hpp"
+
+namespace granflux::particle_subset {
+
+/// The laws of a contact by the names that `pair_style gran` knows.
+struct LawNames {
+  std::string normal = "off", tangential = "off", rolling = "off", cohesion = "off";
+};
+
+/// The contact forces of one choice of laws, whose inner loop is compiled for that choice.
+class ContactKernel {
+public:
+  virtual ~ContactKernel() = default;
+  /// Doubles that a contact remembers.
+  [[nodiscard]] virtual int history_size() const = 0;
+  /// The constants of each pair of `types` types: before a run.
+  virtual void read(const Material& material, int types) = 0;
+  /// Adds the forces and torques on the particles of one thread, and brings its histories to the
+  /// end of the step of `dt` seconds. Called by each thread for its own contacts.
+  virtual void add(const Particles& particles, ThreadContacts& contacts, double dt) const = 0;
+};
+
+/// Null where one of the names is of no law here; says in `unknown` which.
+[[nodiscard]] std::unique_ptr<ContactKernel> make_contact_kernel(const LawNames& names,
+                                                                 std::string& unknown);
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "contact_lists.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace granflux::particle_subset {
+
+namespace {
+
+[[nodiscard]] double distance_squared(const Vec3& a, const Vec3& b) {
+  const Vec3 d = a - b;
+  return dot(d, d);
+}
+
+/// Restores what a pair remembers, if it touches now and did so before.
+class HistoryLookup {
+public:
+  HistoryLookup(const Particles& particles, const PartnerHistory& kept, int size)
+      : particles_(particles), kept_(kept), size_(size) {}
+
+  /// Fills flags and history of all rows; the pair (lower number, higher number) of a row and a
+  /// partner is given by `ordered`.
+  template <class Ordered> void restore(ContactRows& rows, int rows_count, Ordered ordered) const {
+    rows.flags.assign(rows.partner.size(), 0);
+    rows.history.assign(rows.partner.size() * std::size_t(size_), 0.0);
+    if (size_ == 0)
+      return;
+    for (int row = 0; row < rows_count; ++row)
+      for (int e = rows.row_begin(row); e < rows.row_end(row); ++e) {
+        const auto [i, j] = ordered(row, rows.partner[std::size_t(e)]);
+        if (const double* found = find(i, j)) {
+          rows.flags[std::size_t(e)] = 1;
+          std::copy_n(found, size_, &rows.history[std::size_t(e) * std::size_t(size_)]);
+        }
+      }
+  }
+
+private:
+  [[nodiscard]] const double* find(int i, int j) const {
+    const int count = kept_.count[i];
+    if (count == 0)
+      return nullptr;
+    const int* tags = kept_.partner[i];
+    const int* found = std::find(tags, tags + count, particles_.tag[j]);
+    const double radii = particles_.radius[i] + particles_.radius[j];
+    if (found == tags + count ||
+        distance_squared(particles_.position[i], particles_.position[j]) >= radii * radii)
+      return nullptr;
+    return kept_.history[i] + (found - tags) * size_;
+  }
+
+  const Particles& particles_;
+  const PartnerHistory& kept_;
+  int size_;
+};
+
+double largest_radius(const Particles& particles, int threads) {
+  double largest = 0;
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest)
+  for (int p = 0; p < particles.all; ++p)
+    largest = std::max(largest, particles.radius[p]);
+  return largest;
+}
+
+} // namespace
+
+void ContactLists::build(const Particles& particles, double skin, int threads, int history_size,
+                         const Excluded& excluded, const PartnerHistory& kept) {
+  subset_ = Subset(particles.owned, threads);
+  history_size_ = history_size;
+  threads_.resize(std::size_t(threads));
+  cells_.sort(particles, 2 * largest_radius(particles, threads) + skin, threads);
+  // Each thread fills, and so first touches, its own lists.
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (int thread = 0; thread < threads; ++thread) {
+    ThreadContacts& mine = of(thread);
+    mine.own = subset_.of(thread);
+    build_rows(particles, skin, excluded, kept, mine);
+  }
+}
+
+void ContactLists::build_rows(const Particles& particles, double skin, const Excluded& excluded,
+                              const PartnerHistory& kept, ThreadContacts& contacts) const {
+  const Range own = contacts.own;
+  ContactRows& lower = contacts.lower;
+  ContactRows& upper = contacts.upper;
+  for (ContactRows* rows : {&lower, &upper}) {
+    rows->partner.clear();
+    rows->begin.assign(1, 0);
+    rows->begin.reserve(std::size_t(own.size()) + 1);
+  }
+  std::vector<int> found(64);
+  for (int i = own.begin; i < own.end; ++i) {
+    const Vec3 x = particles.position[i];
+    const double reach = particles.radius[i] + skin;
+    std::size_t count = 0;
+    cells_.around(x, [&](const CellGrid::Entry& other, int p) {
+      if (count == found.size())
+        found.resize(2 * found.size());
+      const double limit = reach + other.radius;
+      const bool near = distance_squared(x, {other.x, other.y, other.z}) <= limit * limit;
+      found[count] = p;
+      count += near & ((p > i) | (p < own.begin));
+    });
+    const auto end = found.begin() + std::ptrdiff_t(count);
+    const std::size_t lower_begin = lower.partner.size();
+    for (auto p = found.begin(); p != end; ++p)
+      if (!excluded || !excluded(std::min(i, *p), std::max(i, *p)))
+        (*p > i ? upper : lower).partner.push_back(*p);
+    std::sort(lower.partner.begin() + std::ptrdiff_t(lower_begin), lower.partner.end());
+    lower.begin.push_back(int(lower.partner.size()));
+    upper.begin.push_back(int(upper.partner.size()));
+  }
+  const HistoryLookup lookup(particles, kept, history_size_);
+  lookup.restore(lower, own.size(), [&](int row, int p) { return std::pair(p, own.begin + row); });
+  lookup.restore(upper, own.size(), [&](int row, int p) { return std::pair(own.begin + row, p); });
+}
+
+void ContactLists::store(const Particles& particles, PartnerHistory kept) {
+  kept_.resize(threads_.size());
+  const auto size = std::size_t(history_size_);
+#pragma omp parallel for num_threads(subset_.threads()) schedule(static, 1)
+  for (int thread = 0; thread < subset_.threads(); ++thread) {
+    const ThreadContacts& contacts = of(thread);
+    const Range own = contacts.own;
+    Kept& mine = kept_[std::size_t(thread)];
+
+    // Calls visit(particle, its partner, entry, sign) for every side of a contact that is ours.
+    const auto each = [&](const ContactRows& rows, bool partners_come_first, auto visit) {
+      for (int row = 0; row < own.size(); ++row)
+        for (int e = rows.row_begin(row); e < rows.row_end(row); ++e)
+          if (rows.flags[std::size_t(e)]) {
+            const int p = own.begin + row, other = rows.partner[std::size_t(e)];
+            visit(p, other, e, partners_come_first ? -1.0 : 1.0);
+            if (own.holds(other))
+              visit(other, p, e, -1.0);
+          }
+    };
+    const auto each_side = [&](auto visit) {
+      each(contacts.lower, true,
+           [&](int p, int other, int e, double sign) { visit(contacts.lower, p, other, e, sign); });
+      each(contacts.upper, false,
+           [&](int p, int other, int e, double sign) { visit(contacts.upper, p, other, e, sign); });
+    };
+
+    std::fill(kept.count + own.begin, kept.count + own.end, 0);
+    std::size_t total = 0;
+    each_side([&](const ContactRows&, int p, int, int, double) { ++kept.count[p], ++total; });
+    mine.partner.resize(total);
+    mine.history.resize(total * size);
+    std::size_t offset = 0;
+    for (int p = own.begin; p < own.end; ++p) {
+      kept.partner[p] = mine.partner.data() + offset;
+      kept.history[p] = mine.history.data() + offset * size;
+      offset += std::size_t(kept.count[p]);
+      kept.count[p] = 0;
+    }
+    each_side([&](const ContactRows& rows, int p, int other, int e, double sign) {
+      const auto k = std::size_t(kept.count[p]++);
+      kept.partner[p][k] = particles.tag[other];
+      for (std::size_t d = 0; d < size; ++d)
+        kept.history[p][k * size + d] = sign * rows.history[std::size_t(e) * size + d];
+    });
+  }
+}
+
+void ContactLists::mirror_history() {
+  const auto size = std::size_t(history_size_);
+#pragma omp parallel for num_threads(subset_.threads()) schedule(static, 1)
+  for (int thread = 0; thread < subset_.threads(); ++thread) {
+    ThreadContacts& mine = of(thread);
+    ContactRows& lower = mine.lower;
+    for (int row = 0; row < mine.own.size(); ++row)
+      for (int e = lower.row_begin(row); e < lower.row_end(row); ++e) {
+        const int i = lower.partner[std::size_t(e)];
+        int owner = 0;
+        while (!threads_[std::size_t(owner)].own.holds(i))
+          ++owner;
+        const ThreadContacts& theirs = threads_[std::size_t(owner)];
+        int same = theirs.upper.row_begin(i - theirs.own.begin);
+        while (theirs.upper.partner[std::size_t(same)] != mine.own.begin + row)
+          ++same;
+        lower.flags[std::size_t(e)] = theirs.upper.flags[std::size_t(same)];
+        std::copy_n(&theirs.upper.history[std::size_t(same) * size], size,
+                    &lower.history[std::size_t(e) * size]);
+      }
+  }
+}
+
+double ContactLists::memory() const {
+  std::size_t bytes = 0;
+  for (const ThreadContacts& t : threads_)
+    for (const ContactRows* rows : {&t.lower, &t.upper})
+      bytes += (rows->begin.capacity() + rows->partner.capacity() + rows->flags.capacity()) *
+                   sizeof(int) +
+               rows->history.capacity() * sizeof(double);
+  for (const Kept& kept : kept_)
+    bytes += kept.partner.capacity() * sizeof(int) + kept.history.capacity() * sizeof(double);
+  return double(bytes);
+}
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cell_grid.hpp"
+#include "particles.hpp"
+#include "subset.hpp"
+
+namespace granflux::particle_subset {
+
+/// Partners of the particles of one range, row by row, with what their contacts remember.
+struct ContactRows {
+  std::vector<int> begin;      ///< of each row in the arrays below, and the end
+  std::vector<int> partner;    ///< numbers of particles
+  std::vector<int> flags;      ///< not 0 once a pair has touched
+  std::vector<double> history; ///< history_size doubles a pair, seen from its lower number
+
+  [[nodiscard]] int row_begin(int row) const { return begin[std::size_t(row)]; }
+  [[nodiscard]] int row_end(int row) const { return begin[std::size_t(row) + 1]; }
+};
+
+/// What one thread works on. A pair of which both particles are its own is held once; a pair that
+/// crosses subsets is held by both owners, each of which adds to its own particle only.
+struct ThreadContacts {
+  Range own;
+  ContactRows lower; ///< row j: partners of own j below own.begin, ascending: other threads'
+  ContactRows upper; ///< row i: partners of own i above i: its own, other threads', ghosts
+};
+
+/// What each particle remembers of its contacts while pairs are not in lists: as the host keeps it
+/// across exchange, sorting and restarts.
+struct PartnerHistory {
+  int* count = nullptr;       ///< partners of each particle
+  int** partner = nullptr;    ///< their tags
+  double** history = nullptr; ///< seen from the particle; the partner sees the opposite
+};
+
+/// The pairs that can touch before the next build, per thread.
+///
+/// Pairs are evaluated from the particle of lower number, whoever evaluates them, and a particle
+/// takes contributions in an order that does not depend on the threads: from lower partners,
+/// ascending, then along its own row. Hence forces are the same bits for every number of threads.
+class ContactLists {
+public:
+  using Excluded = std::function<bool(int, int)>; ///< empty: no pair is
+
+  /// Pairs up to radius_i + radius_j + skin apart. Pairs that touch find their history in `kept`
+  /// under the tag of their partner.
+  void build(const Particles& particles, double skin, int threads, int history_size,
+             const Excluded& excluded, const PartnerHistory& kept);
+
+  /// The way back: what touched since the build, for each owned particle. The arrays that the
+  /// pointers in `kept` lead to are held here until the next call.
+  void store(const Particles& particles, PartnerHistory kept);
+
+  /// After a step in which only the upper rows were advanced: the lower rows follow.
+  void mirror_history();
+
+  [[nodiscard]] const Subset& subset() const { return subset_; }
+  [[nodiscard]] int history_size() const { return history_size_; }
+  [[nodiscard]] ThreadContacts& of(int thread) { return threads_[std::size_t(thread)]; }
+  [[nodiscard]] const ThreadContacts& of(int thread) const { return threads_[std::size_t(thread)]; }
+  /// Bytes of all lists.
+  [[nodiscard]] double memory() const;
+
+private:
+  void build_rows(const Particles& particles, double skin, const Excluded& excluded,
+                  const PartnerHistory& kept, ThreadContacts& contacts) const;
+
+  struct Kept {
+    std::vector<int> partner;
+    std::vector<double> history;
+  };
+
+  Subset subset_{0, 1};
+  int history_size_ = 0;
+  CellGrid cells_;
+  std::vector<ThreadContacts> threads_;
+  std::vector<Kept> kept_; // per thread
+};
+
+} // namespace granflux::particle_subset

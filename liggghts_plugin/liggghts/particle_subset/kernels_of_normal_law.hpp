@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contact_forces.hpp"
+#include "contact_kernel.hpp"
+#include "law/cohesion_off.hpp"
+#include "law/cohesion_sjkr.hpp"
+#include "law/rolling_cdt.hpp"
+#include "law/rolling_epsd2.hpp"
+#include "law/rolling_off.hpp"
+#include "law/tangential_history.hpp"
+#include "law/tangential_no_history.hpp"
+#include "law/tangential_off.hpp"
+
+// The kernels of one normal law with all laws that may go with it. A normal law has a source file
+// of its own, so that the compiler works on them side by side.
+namespace granflux::particle_subset {
+
+template <class Law> class KernelOf final : public ContactKernel {
+public:
+  [[nodiscard]] int history_size() const override { return Law::history; }
+
+  void read(const Material& material, int types) override {
+    types_ = types;
+    constants_.clear();
+    for (int a = 1; a <= types; ++a)
+      for (int b = 1; b <= types; ++b)
+        constants_.push_back(Law::constants(material, a, b));
+  }
+
+  void add(const Particles& particles, ThreadContacts& contacts, double dt) const override {
+    if (types_ == 1)
+      ContactForces<Law, true>(particles, constants_.data(), types_, dt).add(contacts);
+    else
+      ContactForces<Law, false>(particles, constants_.data(), types_, dt).add(contacts);
+  }
+
+private:
+  int types_ = 0;
+  std::vector<typename Law::Constants> constants_;
+};
+
+template <class... Laws> struct Choices {};
+
+/// Calls make with the law of that name as an empty object; false if there is none.
+template <class... Laws, class Make>
+bool choose(Choices<Laws...>, std::string_view name, Make&& make) {
+  return ((name == Laws::name && (make(Laws{}), true)) || ...);
+}
+
+template <class Normal>
+std::unique_ptr<ContactKernel> kernel_with_normal(const LawNames& names, std::string& unknown) {
+  using TangentialLaws = Choices<TangentialOff, TangentialHistory, TangentialNoHistory>;
+  using RollingLaws = Choices<RollingOff, RollingCdt, RollingEpsd2>;
+  using CohesionLaws = Choices<CohesionOff, CohesionSjkr>;
+  std::unique_ptr<ContactKernel> kernel;
+  const bool tangential = choose(TangentialLaws{}, names.tangential, [&](auto t) {
+    const bool rolling = choose(RollingLaws{}, names.rolling, [&](auto r) {
+      const bool cohesion = choose(CohesionLaws{}, names.cohesion, [&](auto c) {
+        using Law = ContactLaw<Normal, decltype(t), decltype(r), decltype(c)>;
+        kernel = std::make_unique<KernelOf<Law>>();
+      });
+      if (!cohesion)
+        unknown = "cohesion " + names.cohesion;
+    });
+    if (!rolling)
+      unknown = "rolling_friction " + names.rolling;
+  });
+  if (!tangential)
+    unknown = "tangential " + names.tangential;
+  return kernel;
+}
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "../contact.hpp"
+#include "../material.hpp"
+
+namespace granflux::particle_subset {
+
+/// Elastic-plastic spring of rolling without dashpot (Iwashita and Oda's stiffness kt R^2; Ai,
+/// Chen, Rotter, Ooi, Powder Technology 206 (2011) 269-282, model C). The torque is the history.
+struct RollingEpsd2 {
+  static constexpr std::string_view name = "epsd2";
+  static constexpr bool acts = true;
+  static constexpr int history = 3;
+
+  struct Constants {
+    double rolling_friction;
+    double without_torsion; // 1: the spin along the normal is taken out
+  };
+  static Constants constants(const Material& m, int a, int b) {
+    return {m.pair("coeffRollFrict", a, b), double(!m.option("torsionTorque"))};
+  }
+
+  /// On j; its opposite on i.
+  static Vec3 torque(const Constants& k, const Contact& c, const NormalForce& normal, double dt,
+                     Vec3& old) {
+    const double radius = c.reduced_radius;
+    const Vec3 spin =
+        c.relative_spin - k.without_torsion * dot(c.relative_spin, c.normal) * c.normal;
+    const Vec3 torque = old + dt * normal.tangential_stiffness * radius * radius * spin;
+    const double size = norm(torque);
+    const double limit = std::abs(normal.force) * radius * k.rolling_friction;
+    old = (size > limit ? limit / size : 1.0) * torque;
+    return old;
+  }
+};
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "../contact.hpp"
+#include "../material.hpp"
+
+namespace granflux::particle_subset {
+
+/// Spring, dashpot and slider (Cundall and Strack, Geotechnique 29 (1979) 47-65). The spring's
+/// elongation is the contact's history: advanced by the slip, turned into the tangential plane, and
+/// shortened to what friction can hold. A contact that slides is not damped.
+struct TangentialHistory {
+  static constexpr std::string_view name = "history";
+  static constexpr bool acts = true;
+  static constexpr int history = 3;
+
+  struct Constants {
+    double friction;
+  };
+  static Constants constants(const Material& m, int a, int b) {
+    return {m.pair("coeffFrict", a, b)};
+  }
+
+  /// On i. `elongation` [m] is brought to the end of the step of `dt` seconds.
+  static Vec3 force(const Constants& k, const Contact& c, const NormalForce& normal, double dt,
+                    Vec3& elongation) {
+    Vec3 spring = elongation + dt * c.slip;
+    spring -= dot(spring, c.normal) * c.normal;
+    const double elastic = normal.tangential_stiffness * norm(spring);
+    const double limit = k.friction * std::abs(normal.force);
+    const bool slides = elastic > limit;
+    const double held = slides ? limit / elastic : 1.0;
+    const double damping = slides ? 0.0 : normal.tangential_damping;
+    elongation = held * spring;
+    return -normal.tangential_stiffness * elongation - damping * c.slip;
+  }
+};
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "../contact.hpp"
+#include "../material.hpp"
+
+namespace granflux::particle_subset {
+
+/// A dashpot alone, limited by friction.
+struct TangentialNoHistory {
+  static constexpr std::string_view name = "no_history";
+  static constexpr bool acts = true;
+  static constexpr int history = 0;
+
+  struct Constants {
+    double friction;
+  };
+  static Constants constants(const Material& m, int a, int b) {
+    return {m.pair("coeffFrict", a, b)};
+  }
+
+  static Vec3 force(const Constants& k, const Contact& c, const NormalForce& normal, double,
+                    Vec3&) {
+    const double speed = norm(c.slip);
+    const double limit = k.friction * std::abs(normal.force);
+    const bool slides = limit < normal.tangential_damping * speed;
+    return -(slides ? limit / speed : normal.tangential_damping) * c.slip;
+  }
+};
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "pair_gran.hpp"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <omp.h>
+
+#include <liggghts/atom.h>
+#include <liggghts/comm.h>
+#include <liggghts/error.h>
+#include <liggghts/fix.h>
+#include <liggghts/force.h>
+#include <liggghts/modify.h>
+#include <liggghts/neighbor.h>
+#include <liggghts/update.h>
+
+#include "fix_contact_history.hpp"
+#include "say_once.hpp"
+
+namespace granflux::particle_subset {
+
+namespace {
+
+/// Constants of the laws as LIGGGHTS derives them from the script's properties.
+class HostMaterial : public Material {
+public:
+  HostMaterial(PropertyRegistry& registry, const GranWords& words)
+      : registry_(registry), words_(words) {}
+  [[nodiscard]] double pair(std::string_view property, int a, int b) const override {
+    return registry_.getMatrixProperty(std::string(property), caller)->data[a][b];
+  }
+  [[nodiscard]] double scalar(std::string_view property) const override {
+    return registry_.getScalarProperty(std::string(property), caller)->data;
+  }
+  [[nodiscard]] bool option(std::string_view keyword) const override {
+    return words_.option(keyword);
+  }
+
+private:
+  static constexpr const char* caller = "pair_style gran by particle subset";
+  PropertyRegistry& registry_;
+  const GranWords& words_;
+};
+
+/// Neighbor::exclusion is protected: a class derived from Neighbor may name it.
+struct NeighborAccess : LAMMPS_NS::Neighbor {
+  static auto exclusion_of_pair() { return &NeighborAccess::exclusion; }
+};
+
+Vec3* rows(double** array) {
+  return array ? reinterpret_cast<Vec3*>(array[0]) : nullptr;
+}
+
+/// Fixes that make bodies of particles; names are compared up to their length.
+constexpr std::array body_fixes{"rigid", "multisphere", "concave"};
+
+std::unique_ptr<LAMMPS_NS::NeighList> new_list(LAMMPS_NS::LAMMPS* lammps, int doubles_a_pair) {
+  auto made = std::make_unique<LAMMPS_NS::NeighList>(lammps);
+  made->dnum = doubles_a_pair;
+  made->ghostflag = 0; // read by its destructor, but not set by its constructor
+  return made;
+}
+
+} // namespace
+
+PairGran::PairGran(LAMMPS_NS::LAMMPS* lammps) : PairGranProxy(lammps) {}
+
+PairGran::~PairGran() = default;
+
+void PairGran::settings(int narg, char** arg) {
+  words_ = read_gran_words({arg, std::size_t(narg)});
+  kernel_ = make_contact_kernel(words_.laws, unknown_law_);
+  PairGranProxy::settings(narg, arg);
+}
+
+std::string PairGran::reason_for_stock() {
+  if (!kernel_)
+    return unknown_law_.empty() ? "the models come from a restart file" : unknown_law_;
+  if (!words_.malformed.empty())
+    return words_.malformed;
+  if (words_.surface != "default")
+    return "surface " + words_.surface;
+  if (const std::string option = words_.unsupported_option(); !option.empty())
+    return option + " on";
+  if (force->pair != this)
+    return "pair_style hybrid";
+  if (!atom->sphere_flag || atom->superquadric_flag || atom->shapetype_flag || !atom->radius_flag ||
+      !atom->rmass_flag)
+    return std::string("atom_style ") + atom->atom_style;
+  if (force->newton_pair)
+    return "newton on";
+  if (force->nktv2p != 1)
+    return std::string("units ") + update->unit_style;
+  if (force->cg_active())
+    return "coarsegraining";
+  if (neighbor->includegroup)
+    return "neigh_modify include";
+  if (neighbor->contactDistanceFactor != 1)
+    return "contact_distance_factor";
+  if (dnum_pair() != kernel_->history_size())
+    return "history of another model";
+  for (const char* style : body_fixes)
+    if (modify->n_fixes_style(style) > 0)
+      return std::string("fix ") + style;
+  for (int i = 0; i < modify->nfix; ++i)
+    if (modify->fix[i]->n_history_extra() > 0)
+      return std::string("fix ") + modify->fix[i]->style;
+  return {};
+}
+
+void PairGran::init_style() {
+  const std::string reason = reason_for_stock();
+  const bool by_subset = reason.empty();
+  // The lists of the other kind go out of use: what they remember goes to the particles first.
+  if (by_subset != by_subset_ && computeflag_ && fix_history)
+    fix_history->setup_pre_exchange();
+  by_subset_ = by_subset;
+  needs_neighlist = !by_subset;
+  PairGranProxy::init_style();
+  if (by_subset) {
+    shown_ = new_list(lmp, 0);
+    shown_history_ = new_list(lmp, dnum());
+    shown_->listgranhistory = shown_history_.get();
+    shown_->fix_history = fix_history;
+    list = shown_.get();
+    listgranhistory = history ? shown_history_.get() : nullptr;
+    say_once(*lmp, "contact forces by particle subset");
+  } else {
+    say_once(
+        *lmp,
+        fmt::format("contact forces are LIGGGHTS' own: {} has no form by particle subset", reason));
+  }
+}
+
+void PairGran::init_granular() {
+  PairGranProxy::init_granular();
+  if (by_subset_)
+    kernel_->read(HostMaterial(force->registry, words_), atom->ntypes);
+}
+
+Particles PairGran::particles() const {
+  return {.owned = atom->nlocal,
+          .all = atom->nlocal + atom->nghost,
+          .position = rows(atom->x),
+          .velocity = rows(atom->v),
+          .spin = rows(atom->omega),
+          .radius = atom->radius,
+          .mass = atom->rmass,
+          .type = atom->type,
+          .tag = atom->tag,
+          .groups = atom->mask,
+          .frozen_group = freeze_group_bit(),
+          .force = rows(atom->f),
+          .torque = rows(atom->torque)};
+}
+
+void PairGran::compute(int eflag, int vflag) {
+  // Where contacts are remembered, the fix has taken the memory over before every build.
+  const bool lists_are_old = neighbor->ago == 0 && !(history && computeflag_);
+  if (by_subset_ && lists_are_old)
+    build_lists();
+  PairGranProxy::compute(eflag, vflag);
+}
+
+void PairGran::build_lists() {
+  ContactLists::Excluded excluded;
+  if (neighbor->exclude_setting())
+    excluded = [this](int i, int j) {
+      return (neighbor->*NeighborAccess::exclusion_of_pair())(i, j, atom->type[i], atom->type[j],
+                                                              atom->mask, atom->molecule) != 0;
+    };
+  PartnerHistory kept;
+  if (auto* fix = dynamic_cast<FixContactHistory*>(fix_history))
+    kept = fix->arrays();
+  lists_.build(particles(), neighbor->skin, omp_get_max_threads(), kernel_->history_size(),
+               excluded, kept);
+  show_lists_to_host();
+}
+
+void PairGran::show_lists_to_host() {
+  shown_->grow(atom->nmax);
+  shown_history_->grow(atom->nmax);
+  shown_->inum = atom->nlocal;
+  const auto size = std::size_t(lists_.history_size());
+#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
+  for (int thread = 0; thread < lists_.subset().threads(); ++thread) {
+    const Range own = lists_.of(thread).own;
+    ContactRows& upper = lists_.of(thread).upper;
+    for (int i = own.begin; i < own.end; ++i) {
+      const auto begin = std::size_t(upper.row_begin(i - own.begin));
+      shown_->ilist[i] = i;
+      shown_->numneigh[i] = upper.row_end(i - own.begin) - int(begin);
+      shown_->firstneigh[i] = upper.partner.data() + begin;
+      if (size > 0) {
+        shown_history_->firstneigh[i] = upper.flags.data() + begin;
+        shown_history_->firstdouble[i] = upper.history.data() + begin * size;
+      }
+    }
+  }
+}
+
+bool PairGran::only_forces_wanted(int eflag, int vflag, int addflag) {
+  return !eflag && !vflag && !addflag && shearupdate() && !storeContactForces() &&
+         !storeContactForcesStress() && !storeSumDelta() && !store_sum_normal_force();
+}
+
+void PairGran::compute_force(int eflag, int vflag, int addflag) {
+  if (!by_subset_) {
+    PairGranProxy::compute_force(eflag, vflag, addflag);
+    return;
+  }
+  if (!only_forces_wanted(eflag, vflag, addflag)) {
+    PairGranProxy::compute_force(eflag, vflag, addflag); // along the lists that are shown to it
+    if (computeflag() && shearupdate())
+      lists_.mirror_history();
+    return;
+  }
+  evflag = vflag_fdotr = 0;
+  const Particles all = particles();
+#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
+  for (int thread = 0; thread < lists_.subset().threads(); ++thread)
+    kernel_->add(all, lists_.of(thread), update->dt);
+}
+
+void PairGran::store_history(PartnerHistory kept) {
+  lists_.store(particles(), kept);
+}
+
+} // namespace granflux::particle_subset

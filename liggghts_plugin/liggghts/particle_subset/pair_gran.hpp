@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <liggghts/lammps.h>
+
+#include <liggghts/neigh_list.h>
+#include <liggghts/pair_gran_proxy.h>
+
+#include "contact_kernel.hpp"
+#include "contact_lists.hpp"
+#include "gran_words.hpp"
+
+namespace granflux::particle_subset {
+
+/// `pair_style gran` with the contact forces computed by particle subset. Everything else is
+/// LIGGGHTS' own: what has no form by subset, and steps that ask for more than forces (virial,
+/// contacts for output), go through its loop.
+class PairGran : public LAMMPS_NS::PairGranProxy {
+public:
+  explicit PairGran(LAMMPS_NS::LAMMPS* lammps);
+  ~PairGran() override;
+
+  void settings(int narg, char** arg) override;
+  void init_style() override;
+  void init_granular() override;
+  void compute(int eflag, int vflag) override;
+  void compute_force(int eflag, int vflag, int addflag) override;
+
+  /// Whether contacts are remembered in the lists here, not in LIGGGHTS' own.
+  [[nodiscard]] bool holds_history() const { return by_subset_; }
+  void store_history(PartnerHistory kept);
+
+private:
+  [[nodiscard]] std::string reason_for_stock();
+  void build_lists();
+  void show_lists_to_host();
+  [[nodiscard]] Particles particles() const;
+  [[nodiscard]] bool only_forces_wanted(int eflag, int vflag, int addflag);
+
+  GranWords words_;
+  std::unique_ptr<ContactKernel> kernel_;
+  std::string unknown_law_; // why there is no kernel
+  bool by_subset_ = false;
+  ContactLists lists_;
+  // The same lists in the form in which LIGGGHTS' loop, fixes and computes read them.
+  std::unique_ptr<LAMMPS_NS::NeighList> shown_, shown_history_;
+};
+
+} // namespace granflux::particle_subset
