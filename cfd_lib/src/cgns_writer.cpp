@@ -20,12 +20,24 @@ namespace granflux::cfd {
 namespace {
 
 constexpr int message_tag = 7301;
+constexpr std::size_t longest_name = 32; ///< of a node in a CGNS file
 
-/// The components to be written, each by its name, as flat lists.
+/// One array to be written for each block.
 struct Component {
   std::string name;
   std::vector<const Field*> blocks; ///< on the blocks of this rank, in the order of Mesh::local
 };
+
+/// Where the nodes are, CGNS' names.
+std::vector<Component> coordinates_of(const Mesh& mesh) {
+  std::vector<Component> coordinates;
+  for (std::size_t d = 0; d < 3; ++d) {
+    coordinates.push_back({std::string("Coordinate") + "XYZ" [d], {}});
+    for (const Block& block : mesh.local)
+      coordinates.back().blocks.push_back(&block.node[d]);
+  }
+  return coordinates;
+}
 
 std::vector<Component> components_of(const std::vector<NamedVector>& vectors,
                                      const std::vector<NamedField>& scalars) {
@@ -41,37 +53,59 @@ std::vector<Component> components_of(const std::vector<NamedVector>& vectors,
     for (const Field& block : *scalar.values)
       components.back().blocks.push_back(&block);
   }
-  constexpr std::size_t longest = 32; // of a node's name in a CGNS file
   for (const Component& component : components)
-    if (component.name.empty() || component.name.size() > longest)
+    if (component.name.empty() || component.name.size() > longest_name)
       throw ConfigError(fmt::format("field name \"{}\": a CGNS file takes 1 to {} characters",
-                                    component.name, longest));
+                                    component.name, longest_name));
   return components;
 }
 
-/// Interior values in the file's order, i fastest.
-std::vector<double> packed(const Layout& layout, const Field& field) {
+/// One more node than cells along each direction.
+Index3 nodes_of(const Index3& cells) {
+  return {cells[0] + 1, cells[1] + 1, cells[2] + 1};
+}
+
+std::size_t count(const Index3& n) {
+  return std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]);
+}
+
+/// The first n values along each direction in the file's order, i fastest.
+std::vector<double> packed(const Layout& layout, const Index3& n, const Field& field) {
   std::vector<double> values;
-  values.reserve(std::size_t(layout.interior()));
-  for (int k = 0; k < layout.cells[2]; ++k)
-    for (int j = 0; j < layout.cells[1]; ++j)
-      for (int i = 0; i < layout.cells[0]; ++i)
+  values.reserve(count(n));
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
         values.push_back(field[layout.at(i, j, k)]);
   return values;
 }
 
-/// Node coordinates along each direction of one block of a lattice [m].
-std::array<std::vector<double>, 3> block_nodes(const Lattice& lattice, int block) {
-  const Index3 blocks = lattice.blocks();
-  const Index3 slab{block % blocks[0], block / blocks[0] % blocks[1],
-                    block / (blocks[0] * blocks[1])};
-  std::array<std::vector<double>, 3> nodes;
-  for (std::size_t d = 0; d < 3; ++d) {
-    const auto begin = lattice.nodes[d].begin();
-    const std::size_t s = std::size_t(slab[d]);
-    nodes[d].assign(begin + lattice.starts[d][s], begin + lattice.starts[d][s + 1] + 1);
-  }
-  return nodes;
+std::string zone_name(int block) {
+  return fmt::format("Block{:05d}", block);
+}
+
+/// The nodes around the faces of a patch, first and last, counted from 1 as in the file.
+std::array<Index3, 2> node_range(const Patch& patch) {
+  std::array<Index3, 2> range{patch.cells.lo, patch.cells.hi};
+  const auto d = std::size_t(patch.side.direction);
+  (patch.side.high ? range[0] : range[1])[d] = patch.side.high ? range[1][d] : range[0][d];
+  for (Index3& corner : range)
+    for (int& n : corner)
+      ++n;
+  return range;
+}
+
+/// The donor's node for one of this block, both counted from 1.
+Index3 donor_node(const Link& link, const Index3& node) {
+  Index3 donor = link.donor({node[0] - 1, node[1] - 1, node[2] - 1});
+  for (std::size_t a = 0; a < 3;
+       ++a) // where the order turns, a cell's low node becomes its high one
+    donor[a] += link.sign[a] < 0 ? 2 : 1;
+  return donor;
+}
+
+std::array<cgsize_t, 6> file_range(const Index3& begin, const Index3& end) {
+  return {begin[0], begin[1], begin[2], end[0], end[1], end[2]};
 }
 
 /// An open CGNS file on rank 0. After the first failure nothing more is written; `failure` keeps
@@ -92,27 +126,42 @@ public:
   FileOnRankZero& operator=(const FileOnRankZero&) = delete;
   ~FileOnRankZero() { close(); }
 
-  void write_zone(int block, const Index3& cells, const std::array<std::vector<double>, 3>& nodes) {
+  void write_families(const std::vector<std::string>& boundaries) {
+    for (std::size_t b = 0; b < boundaries.size() && failure.empty(); ++b) {
+      families_.push_back(family_name(boundaries[b], b));
+      int family = 0;
+      done(cg_family_write(file_, base_, families_.back().c_str(), &family));
+      done(cg_goto(file_, base_, "Family_t", family, "end"));
+      done(cg_descriptor_write("Boundary", boundaries[b].c_str()));
+    }
+  }
+
+  void begin_zone(int block, const Index3& cells) {
     if (!failure.empty())
       return;
     std::array<cgsize_t, 9> size{};
     for (std::size_t d = 0; d < 3; ++d)
       size[d] = cells[d] + 1, size[3 + d] = cells[d];
-    const std::string name = fmt::format("Block{:05d}", block);
-    done(cg_zone_write(file_, base_, name.c_str(), size.data(), CGNS_ENUMV(Structured), &zone_));
+    done(cg_zone_write(file_, base_, zone_name(block).c_str(), size.data(), CGNS_ENUMV(Structured),
+                       &zone_));
+  }
 
-    std::vector<double> coordinate(nodes[0].size() * nodes[1].size() * nodes[2].size());
-    for (std::size_t d = 0; d < 3; ++d) {
-      std::size_t n = 0;
-      for (std::size_t k = 0; k < nodes[2].size(); ++k)
-        for (std::size_t j = 0; j < nodes[1].size(); ++j)
-          for (std::size_t i = 0; i < nodes[0].size(); ++i)
-            coordinate[n++] = nodes[d][d == 0 ? i : d == 1 ? j : k];
-      int written = 0;
-      const std::string title = std::string("Coordinate") + "XYZ"[d];
-      done(cg_coord_write(file_, base_, zone_, CGNS_ENUMV(RealDouble), title.c_str(),
-                          coordinate.data(), &written));
-    }
+  /// Boundaries and connections of the zone just begun.
+  void write_patches(const std::vector<Patch>& patches) {
+    for (std::size_t p = 0; p < patches.size() && failure.empty(); ++p)
+      patches[p].link ? write_link(p, patches[p]) : write_boundary(p, patches[p]);
+  }
+
+  void write_coordinate(const std::string& name, const std::vector<double>& values) {
+    int written = 0;
+    if (failure.empty())
+      done(cg_coord_write(file_, base_, zone_, CGNS_ENUMV(RealDouble), name.c_str(), values.data(),
+                          &written));
+  }
+
+  void begin_fields() {
+    if (!failure.empty())
+      return;
     done(cg_sol_write(file_, base_, zone_, solution_name, CGNS_ENUMV(CellCenter), &solution_));
     write_zone_time();
   }
@@ -143,6 +192,48 @@ private:
     done(cg_array_write("TimeValues", CGNS_ENUMV(RealDouble), 1, &one, &time));
     done(cg_goto(file_, base_, "end"));
     done(cg_descriptor_write("Units", "SI: m, s, m/s, Pa; Pressure is dynamic, p - rho g.x"));
+    done(cg_dataclass_write(CGNS_ENUMV(Dimensional)));
+    done(cg_units_write(CGNS_ENUMV(Kilogram), CGNS_ENUMV(Meter), CGNS_ENUMV(Second),
+                        CGNS_ENUMV(Kelvin), CGNS_ENUMV(Radian)));
+  }
+
+  /// A boundary's own name where the format takes it; else one by number, and the name is in the
+  /// family's descriptor only.
+  static std::string family_name(const std::string& boundary, std::size_t number) {
+    const bool fits = boundary.size() <= longest_name && boundary.find('/') == std::string::npos;
+    return fits ? boundary : fmt::format("Boundary{}", number);
+  }
+
+  void write_boundary(std::size_t number, const Patch& patch) {
+    const auto [begin, end] = node_range(patch);
+    const std::array<cgsize_t, 6> range = file_range(begin, end);
+    int condition = 0;
+    done(cg_boco_write(file_, base_, zone_, fmt::format("Patch{}", number).c_str(),
+                       CGNS_ENUMV(FamilySpecified), CGNS_ENUMV(PointRange), 2, range.data(),
+                       &condition));
+    done(cg_goto(file_, base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", condition, "end"));
+    done(cg_famname_write(families_[std::size_t(patch.boundary)].c_str()));
+  }
+
+  void write_link(std::size_t number, const Patch& patch) {
+    const Link& link = *patch.link;
+    const auto [begin, end] = node_range(patch);
+    const std::array<cgsize_t, 6> range = file_range(begin, end),
+                                  donor =
+                                      file_range(donor_node(link, begin), donor_node(link, end));
+    std::array<int, 3> transform{};
+    for (std::size_t a = 0; a < 3; ++a)
+      transform[std::size_t(link.axis[a])] = link.sign[a] * int(a + 1);
+    int connection = 0;
+    done(cg_1to1_write(file_, base_, zone_, fmt::format("Link{}", number).c_str(),
+                       zone_name(link.block).c_str(), range.data(), donor.data(), transform.data(),
+                       &connection));
+    if (link.shift == Vec3{})
+      return;
+    const std::array<float, 3> none{},
+        to_donor{float(-link.shift.x), float(-link.shift.y), float(-link.shift.z)};
+    done(cg_1to1_periodic_write(file_, base_, zone_, connection, none.data(), none.data(),
+                                to_donor.data()));
   }
 
   /// Readers find the solution of a time through this list, 32 characters a name.
@@ -163,6 +254,7 @@ private:
 
   bool opened_ = false;
   int file_ = 0, base_ = 0, zone_ = 0, solution_ = 0;
+  std::vector<std::string> families_; ///< of the mesh's boundaries
 };
 
 std::string broadcast(std::string text, MPI_Comm comm) {
@@ -189,14 +281,12 @@ std::string folder_fault(const std::string& path) {
 
 /// Most that the file can take [bytes]: its numbers, and generous room for HDF5's own structures.
 std::size_t file_size(const Mesh& mesh, std::size_t components) {
-  constexpr std::size_t per_base = 64 << 10, per_zone = 64 << 10, per_array = 8 << 10;
-  std::size_t bytes = per_base;
+  constexpr std::size_t per_base = 64 << 10, per_zone = 64 << 10, per_array = 8 << 10,
+                        per_patch = 48 << 10, per_family = 16 << 10;
+  std::size_t bytes = per_base + per_family * mesh.boundaries.size();
   for (const BlockInfo& info : mesh.blocks) {
-    std::size_t nodes = 1, cells = 1;
-    for (const int n : info.cells)
-      nodes *= std::size_t(n) + 1, cells *= std::size_t(n);
-    bytes += per_zone + (3 + components) * per_array;
-    bytes += (3 * nodes + components * cells) * sizeof(double);
+    bytes += per_zone + (3 + components) * per_array + info.patches.size() * per_patch;
+    bytes += (3 * count(nodes_of(info.cells)) + components * count(info.cells)) * sizeof(double);
   }
   return bytes;
 }
@@ -212,47 +302,64 @@ std::string room_fault(const std::string& name, std::size_t bytes) {
   return code == 0 ? "" : std::generic_category().message(code);
 }
 
+/// One array of a block on rank 0: its own, or what the owner sends.
+std::vector<double> taken(const Mesh& mesh, const BlockInfo& info, const Index3& n,
+                          const Field* own) {
+  if (own)
+    return packed(Layout(info.cells), n, *own);
+  std::vector<double> values(count(n));
+  MPI_Recv(values.data(), int(values.size()), MPI_DOUBLE, info.rank, message_tag, mesh.comm,
+           MPI_STATUS_IGNORE);
+  return values;
+}
+
 /// Rank 0's part of a write: takes every block from its owner, even after a failure, so that no
 /// owner waits for ever. Returns the text of the failure.
-std::string write_file(const Mesh& mesh, const std::string& name, double time,
+std::string write_file(const Mesh& mesh, const std::string& name, double time, bool patches,
+                       const std::vector<Component>& coordinates,
                        const std::vector<Component>& components) {
   FileOnRankZero file(name, time, room_fault(name, file_size(mesh, components.size())));
+  if (patches)
+    file.write_families(mesh.boundaries);
   std::size_t local = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const BlockInfo& info = mesh.blocks[b];
-    file.write_zone(int(b), info.cells, block_nodes(*mesh.lattice, int(b)));
-    const Layout layout(info.cells);
-    std::vector<double> values;
-    for (const Component& component : components) {
-      if (info.rank == 0) {
-        values = packed(layout, *component.blocks[local]);
-      } else {
-        values.resize(std::size_t(layout.interior()));
-        MPI_Recv(values.data(), int(values.size()), MPI_DOUBLE, info.rank, message_tag, mesh.comm,
-                 MPI_STATUS_IGNORE);
-      }
-      file.write_field(component.name, values);
-    }
-    local += info.rank == 0;
+    const bool own = info.rank == 0;
+    file.begin_zone(int(b), info.cells);
+    if (patches)
+      file.write_patches(info.patches);
+    for (const Component& coordinate : coordinates)
+      file.write_coordinate(coordinate.name, taken(mesh, info, nodes_of(info.cells),
+                                                   own ? coordinate.blocks[local] : nullptr));
+    file.begin_fields();
+    for (const Component& component : components)
+      file.write_field(component.name,
+                       taken(mesh, info, info.cells, own ? component.blocks[local] : nullptr));
+    local += own;
   }
   file.close();
   return file.failure;
 }
 
-void send_blocks(const Mesh& mesh, const std::vector<Component>& components) {
-  for (std::size_t local = 0; local < mesh.local.size(); ++local)
-    for (const Component& component : components) {
-      const auto values = packed(mesh.local[local].layout, *component.blocks[local]);
-      MPI_Send(values.data(), int(values.size()), MPI_DOUBLE, 0, message_tag, mesh.comm);
-    }
+void send_blocks(const Mesh& mesh, const std::vector<Component>& coordinates,
+                 const std::vector<Component>& components) {
+  const auto send = [&](const Block& block, const Index3& n, const Field& field) {
+    const std::vector<double> values = packed(block.layout, n, field);
+    MPI_Send(values.data(), int(values.size()), MPI_DOUBLE, 0, message_tag, mesh.comm);
+  };
+  for (std::size_t local = 0; local < mesh.local.size(); ++local) {
+    const Block& block = mesh.local[local];
+    for (const Component& coordinate : coordinates)
+      send(block, nodes_of(block.layout.cells), *coordinate.blocks[local]);
+    for (const Component& component : components)
+      send(block, block.layout.cells, *component.blocks[local]);
+  }
 }
 
 } // namespace
 
 CgnsWriter::CgnsWriter(const Mesh& mesh, std::string path, long first)
-    : mesh_(mesh), path_(std::move(path)), next_(first) {
-  if (!mesh.lattice)
-    throw ConfigError("CGNS output needs a box mesh");
+    : mesh_(mesh), path_(std::move(path)), first_(first), next_(first) {
   int rank = 0;
   MPI_Comm_rank(mesh.comm, &rank);
   const std::string fault = broadcast(rank == 0 ? folder_fault(path_) : "", mesh.comm);
@@ -272,13 +379,14 @@ std::string CgnsWriter::write(const GasSolver& solver, const std::vector<NamedFi
 std::string CgnsWriter::write(double time, const std::vector<NamedVector>& vectors,
                               const std::vector<NamedField>& scalars) {
   const std::vector<Component> components = components_of(vectors, scalars);
+  const std::vector<Component> coordinates = coordinates_of(mesh_);
   const std::string name = fmt::format("{}_{:06d}.cgns", path_, next_);
   const std::string unfinished = name + ".part";
   int rank = 0;
   MPI_Comm_rank(mesh_.comm, &rank);
   std::string failure;
   if (rank == 0) {
-    failure = write_file(mesh_, unfinished, time, components);
+    failure = write_file(mesh_, unfinished, time, next_ == first_, coordinates, components);
     std::error_code error;
     if (failure.empty()) {
       std::filesystem::rename(unfinished, name, error);
@@ -288,7 +396,7 @@ std::string CgnsWriter::write(double time, const std::vector<NamedVector>& vecto
     if (!failure.empty())
       std::filesystem::remove(unfinished, error);
   } else {
-    send_blocks(mesh_, components);
+    send_blocks(mesh_, coordinates, components);
   }
   failure = broadcast(failure, mesh_.comm);
   if (!failure.empty())

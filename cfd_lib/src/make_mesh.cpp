@@ -14,6 +14,7 @@
 #include <granflux/cfd/mesh.hpp>
 
 #include "block_geometry.hpp"
+#include "throw_alike.hpp"
 
 namespace granflux::cfd {
 
@@ -112,23 +113,6 @@ void deal(Mesh& mesh, const Grid& grid) {
   const std::vector<int> rank_of = deal_blocks(cost, ranks);
   for (std::size_t id = 0; id < grid.blocks.size(); ++id)
     mesh.blocks.push_back({grid.blocks[id].cells, rank_of[id], grid.blocks[id].patches});
-}
-
-/// Throws on all ranks what the first of them has to say.
-void throw_alike(MPI_Comm comm, const std::string& error) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
-  int first = error.empty() ? ranks : rank;
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
-  if (first == ranks)
-    return;
-  int length = int(error.size());
-  MPI_Bcast(&length, 1, MPI_INT, first, comm);
-  std::string text = error;
-  text.resize(u(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, first, comm);
-  throw ConfigError(text);
 }
 
 /// body(position of the ghost, resolved cell, or nothing at a boundary) for the ghosts of a patch.

@@ -151,10 +151,9 @@ Numerics read_numerics(const CaseTable& table) {
                                                        {{"central", ConvectionScheme::central},
                                                         {"upwind2", ConvectionScheme::upwind2},
                                                         {"limited", ConvectionScheme::limited}});
-  numerics.time_scheme =
-      table.choice<TimeScheme>("time_scheme", numerics.time_scheme,
-                               {{"semi_implicit", TimeScheme::semi_implicit},
-                                {"implicit", TimeScheme::implicit}});
+  numerics.time_scheme = table.choice<TimeScheme>(
+      "time_scheme", numerics.time_scheme,
+      {{"semi_implicit", TimeScheme::semi_implicit}, {"implicit", TimeScheme::implicit}});
   numerics.pressure_solver =
       table.choice<PressureMethod>("pressure_solver", numerics.pressure_solver,
                                    {{"auto", PressureMethod::automatic},

@@ -199,7 +199,7 @@ Grid split_blocks(const Grid& grid, const Pieces& boxes) {
   return split;
 }
 
-Pieces choose_pieces(const Grid& grid, int ranks) {
+std::optional<Pieces> choose_pieces(const Grid& grid, int ranks) {
   const std::vector<std::int64_t> cost = costs(grid);
   const double mean =
       double(std::accumulate(cost.begin(), cost.end(), std::int64_t{0})) / double(ranks);
@@ -220,14 +220,9 @@ Pieces choose_pieces(const Grid& grid, int ranks) {
       last = share_end;
     }
     parts.push_back(end - last);
-    const GridBlock& block = grid.blocks[b];
     std::vector<IndexBox> boxes;
-    if (!cut({{0, 0, 0}, block.cells}, parts, tolerance, boxes))
-      throw ConfigError(fmt::format(
-          "grid: block {} ({}) of {} x {} x {} cells cannot be cut into {} pieces with at least "
-          "two "
-          "cells a direction, as {} ranks need it: use fewer ranks or more cells",
-          b, block.name, block.cells[0], block.cells[1], block.cells[2], parts.size(), ranks));
+    if (!cut({{0, 0, 0}, grid.blocks[b].cells}, parts, tolerance, boxes))
+      return {};
     pieces.push_back(std::move(boxes));
     begin = end;
   }
@@ -240,7 +235,15 @@ Grid split_for_ranks(const Grid& grid, int ranks) {
   const double whole = enough ? imbalance_of(grid, ranks) : std::numeric_limits<double>::infinity();
   if (whole <= good)
     return grid;
-  Grid split = split_blocks(grid, choose_pieces(grid, ranks));
+  const std::optional<Pieces> pieces = choose_pieces(grid, ranks);
+  if (!pieces && !enough)
+    throw ConfigError(fmt::format(
+        "grid: {} blocks cannot be cut into pieces for {} ranks with at least two cells along each "
+        "direction that is cut: use fewer ranks or more cells",
+        grid.blocks.size(), ranks));
+  if (!pieces)
+    return grid;
+  Grid split = split_blocks(grid, *pieces);
   return imbalance_of(split, ranks) < whole ? split : grid;
 }
 

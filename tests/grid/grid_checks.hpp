@@ -95,7 +95,8 @@ inline int expect_links_meet(const Grid& grid, double tolerance = 0) {
         return p.link && p.side == back.side && p.cells.lo == back.cells.lo &&
                p.cells.hi == back.cells.hi && p.link->block == id &&
                p.link->axis == back.link->axis && p.link->sign == back.link->sign &&
-               p.link->offset == back.link->offset && p.link->shift == back.link->shift;
+               p.link->offset == back.link->offset &&
+               norm(p.link->shift - back.link->shift) <= 1e-15;
       };
       EXPECT_EQ(std::count_if(other.patches.begin(), other.patches.end(), answers), 1)
           << "block " << id << " to " << patch.link->block;

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <map>
 #include <random>
 
 #include <granflux/cfd/annulus_grid.hpp>
@@ -9,7 +8,7 @@
 #include <granflux/cfd/split_blocks.hpp>
 
 #include "expect_config_error.hpp"
-#include "grid_checks.hpp"
+#include "same_geometry.hpp"
 
 using namespace granflux;
 using namespace granflux::cfd;
@@ -51,49 +50,6 @@ Pieces random_pieces(const Grid& grid, std::mt19937& random) {
     pieces.push_back(boxes);
   }
   return pieces;
-}
-
-using Key = std::array<long, 3>;
-Key key(const Vec3& x) {
-  return {std::lround(x.x * 1e6), std::lround(x.y * 1e6), std::lround(x.z * 1e6)};
-}
-
-/// Centre of each cell with its volume and the centres of its six neighbours, both layers, in no
-/// order: what must not depend on blocks. A block of the whole mesh is on one rank here.
-std::map<Key, std::vector<double>> geometry(const Mesh& mesh) {
-  std::map<Key, std::vector<double>> cells;
-  for_cells(mesh, [&](std::size_t b, std::ptrdiff_t c, const Index3& cell) {
-    const Block& block = mesh.local[b];
-    std::vector<double> about;
-    for (std::size_t d = 0; d < 3; ++d)
-      for (const int step : {-2, -1, 1, 2}) {
-        Index3 there = cell;
-        there[d] += step;
-        const auto ref = resolve(mesh, {block.id, there});
-        if (!ref && std::abs(step) == 2)
-          continue; // at two cells from a boundary only the first ghost stands for something
-        const std::ptrdiff_t at = c + step * block.layout.stride[d];
-        const Vec3 x = vector_at(block.centre, at);
-        about.push_back(x.x + 10 * x.y + 100 * x.z);
-        about.push_back(block.volume[at]);
-      }
-    about.push_back(block.volume[c]);
-    std::sort(about.begin(), about.end());
-    EXPECT_TRUE(cells.emplace(key(vector_at(block.centre, c)), about).second);
-  });
-  return cells;
-}
-
-void expect_same_geometry(const Grid& a, const Grid& b) {
-  const auto one = geometry(make_mesh(a, MPI_COMM_SELF)),
-             two = geometry(make_mesh(b, MPI_COMM_SELF));
-  ASSERT_EQ(one.size(), two.size());
-  for (auto i = one.begin(), j = two.begin(); i != one.end(); ++i, ++j) {
-    ASSERT_EQ(i->first, j->first);
-    ASSERT_EQ(i->second.size(), j->second.size());
-    for (std::size_t n = 0; n < i->second.size(); ++n)
-      ASSERT_NEAR(i->second[n], j->second[n], 1e-13);
-  }
 }
 
 std::int64_t cells_of(const Grid& grid) {
@@ -196,8 +152,8 @@ TEST(SplitForRanks, CutsWhereMultigridCanGoOn) {
 TEST(SplitForRanks, TooFewCellsAreAnError) {
   const auto message = config_error([] { (void)split_for_ranks(gap(1, 4, 1), 4); });
   EXPECT_EQ(message,
-            "grid: block 0 (annulus) of 1 x 4 x 1 cells cannot be cut into 4 pieces with at least "
-            "two cells a direction, as 4 ranks need it: use fewer ranks or more cells");
+            "grid: 1 blocks cannot be cut into pieces for 4 ranks with at least two cells along "
+            "each direction that is cut: use fewer ranks or more cells");
 }
 
 TEST(SplitForRanks, TheRunsMeshIsTheSame) {

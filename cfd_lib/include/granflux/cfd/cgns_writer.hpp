@@ -22,8 +22,10 @@ struct NamedVector {
 };
 
 /// Writes fields on cell centres to CGNS files <path>_NNNNNN.cgns, one a time, with one zone for
-/// each block; ParaView opens them as one time series. A file appears under its name only once it
-/// is complete. Values are in SI units. The mesh must outlive the writer.
+/// each block and its nodes; ParaView opens them as one time series. The first file of a writer has
+/// the boundaries as well, as families, and the links as one-to-one connections, so that
+/// read_cgns_grid can read the grid back. A file appears under
+/// its name only once it is complete. Values are in SI units. The mesh must outlive the writer.
 class CgnsWriter {
 public:
   /// `first`: number of the first file, for a run that continues. Throws ConfigError where the
@@ -43,7 +45,7 @@ public:
 private:
   const Mesh& mesh_;
   std::string path_;
-  long next_;
+  long first_, next_;
 };
 
 } // namespace granflux::cfd
