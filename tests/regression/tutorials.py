@@ -9,7 +9,7 @@ line. Dumps must be equal to 1e-10, or, where particles have collided long enoug
 agree in the statistics of granflux-regress.
 
 Usage: tutorials.py [--table FILE.md] [--layouts 1x1,2x1] [NAME...]
-Environment: GRANFLUX, LIGGGHTS and MPIRUN name the programs. Exit code 0 if all agree.
+Environment: GRANFLUX, LIGGGHTS and MPIRUN name the programs (default: from PATH). Exit code 0 if all agree.
 """
 
 import argparse
@@ -22,7 +22,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import dataclass
 
 from granflux_regress.bed_statistics import StatisticsOptions, compare_statistics, extent_of, floor_of, statistics_of
@@ -67,7 +66,6 @@ class Outcome:
     particles: int = 0
     exact: str = ""  # largest distance of a particle, relative to the largest of the snapshot
     worst_statistic: str = ""  # in units of its tolerance
-    seconds: tuple = ()  # of liggghts, of granflux
     verdict: str = "differs"
 
     @property
@@ -90,7 +88,7 @@ def shortened(text, tutorial):
 
 
 def run(program, tutorial, folder, layout):
-    """Seconds of wall clock; the dump lies in the tutorial's folder below `folder`."""
+    """Leaves the dump in the tutorial's folder below `folder`."""
     ranks, threads = layout.split("x")
     where = folder / tutorial.name
     if not where.exists():  # a second script of a tutorial starts where the first one ended
@@ -98,17 +96,14 @@ def run(program, tutorial, folder, layout):
         (where / "post").mkdir(exist_ok=True)
     text = (PACKAGED / tutorial.name / tutorial.script).read_text()
     (where / tutorial.script).write_text(shortened(text, tutorial))
-    command = [*shlex.split(os.environ["MPIRUN"]), "-n", ranks, program, "-in", tutorial.script, "-log", "none"]
-    start = time.perf_counter()
+    command = [*shlex.split(os.environ.get("MPIRUN", "mpirun")), "-n", ranks, program, "-in", tutorial.script, "-log", "none"]
     done = subprocess.run(command, cwd=where, env={**os.environ, "OMP_NUM_THREADS": threads}, timeout=TIMEOUT,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
-    seconds = time.perf_counter() - start
     if done.returncode != 0 or "ERROR" in done.stdout:
         reason = [line for line in done.stdout.splitlines() if "ERROR" in line] or [f"exit code {done.returncode}"]
         raise RuntimeError(f"{os.path.basename(program)}: {reason[0]}")
     for file in (where / "post").glob("*.vt*"):
         file.unlink()
-    return seconds
 
 
 def compare(outcome, reference, other):
@@ -132,7 +127,8 @@ def compare(outcome, reference, other):
 def judged(tutorial, layout, folders):
     outcome = Outcome(tutorial, layout)
     try:
-        outcome.seconds = tuple(run(program, tutorial, folder, layout) for program, folder in folders.items())
+        for program, folder in folders.items():
+            run(program, tutorial, folder, layout)
         dumps = [next(read_dump(folder / tutorial.name / "end.dump")) for folder in folders.values()]
         compare(outcome, *dumps)
     except (RuntimeError, subprocess.TimeoutExpired) as problem:
@@ -152,11 +148,10 @@ is the state after the last step. Made again by
   (0: every digit is the same); equal means at most 1e-10.
 * *statistic*: the one nearest to its tolerance, in units of it
   ([tolerances](../reference/granflux_regress.md)); it counts where the distance is more than 1e-10.
-* *layout*: ranks x threads of granflux; liggghts has the same ranks. Seconds are of wall clock on a
-  machine that did other work as well: no measurement of speed.
+* *layout*: ranks x threads of granflux; liggghts has the same ranks.
 
-| tutorial | fraction | last step | particles | layout | distance | statistic | liggghts, s | granflux, s | verdict |
-| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+| tutorial | fraction | last step | particles | layout | distance | statistic | verdict |
+| --- | --- | --- | --- | --- | --- | --- | --- |
 """
 TAIL = """
 `contactModels/in.oldModels` is not in the table: liggghts 3.8.0 itself refuses it (Invalid pair style
@@ -168,7 +163,7 @@ numbers of ranks are different beds, and are not compared.
 def table(outcomes, state):
     rows = [
         f"| {o.tutorial.name}/{o.tutorial.script} | {o.tutorial.fraction:g} | {o.steps} | {o.particles} | {o.layout} | "
-        f"{o.exact} | {o.worst_statistic} | {' | '.join(f'{s:.1f}' for s in o.seconds or (0, 0))} | {o.verdict} |\n"
+        f"{o.exact} | {o.worst_statistic} | {o.verdict} |\n"
         for o in outcomes
     ]
     return HEAD + "".join(rows) + TAIL + f"\n{state}\n"
