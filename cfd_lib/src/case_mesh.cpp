@@ -55,6 +55,7 @@ struct MakeMesh {
   Mesh operator()(const CylinderGrid& cylinder) const {
     return from_blocks(make_cylinder(cylinder));
   }
+  Mesh operator()(const CgnsGrid& file) const { return from_blocks(read_cgns_grid(file, comm)); }
 
 private:
   [[nodiscard]] Mesh from_blocks(const Grid& grid) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 
 #include <granflux/cfd/deal_blocks.hpp>
@@ -106,6 +107,17 @@ CylinderGrid read_cylinder(const CaseTable& table) {
   return grid;
 }
 
+/// A path of the case file is meant from where the case file is.
+CgnsGrid read_cgns(const CaseTable& table, const std::string& case_file) {
+  CgnsGrid grid;
+  const std::filesystem::path path = table.text("file");
+  grid.file = (std::filesystem::path(case_file).parent_path() / path).string();
+  grid.base = table.text("base", "");
+  if (table.has("scale"))
+    grid.scale = table.number("scale", positive, "m per unit of the file");
+  return grid;
+}
+
 BoxPatch read_box_patch(const CaseTable& table, const std::string& name, const BoxGrid& grid) {
   BoxPatch patch;
   patch.name = name;
@@ -136,11 +148,13 @@ Arc read_arc(const CaseTable& table, const std::string& name) {
 
 GridDescription read_grid(CaseFile& file) {
   const CaseTable table = file.table("grid");
-  const std::string kind = table.word("kind", "box", {"box", "annulus", "cylinder"});
+  const std::string kind = table.word("kind", "box", {"box", "annulus", "cylinder", "cgns"});
   if (kind == "annulus")
     return read_annulus(table);
   if (kind == "cylinder")
     return read_cylinder(table);
+  if (kind == "cgns")
+    return read_cgns(table, file.name());
   return read_box(table);
 }
 

@@ -140,6 +140,22 @@ name = "high"
 type = "outlet"
 )";
 
+/// A grid from a file that is not there.
+inline const std::string cgns_case = R"([grid]
+kind = "cgns"
+file = "no/such/drum.cgns"
+base = "Drum"
+scale = 0.001
+
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+
+[[boundary]]
+name = "shell"
+type = "wall"
+)";
+
 /// A text with one piece replaced.
 inline std::string replaced(std::string text, const std::string& old_text,
                             const std::string& new_text) {

@@ -65,6 +65,50 @@ expect 0 "top                        5.000000e-05" good.toml
   failures=$((failures + 1))
   ls
 }
+# A drum of five blocks, then the same from the file that it left.
+cat >drum.toml <<'TOML'
+[grid]
+kind = "cylinder"
+radius = 0.01
+length = 0.02
+cells = [2, 4, 6]
+[fluid]
+density = 1.2
+viscosity = 1.8e-5
+[[boundary]]
+name = "wall"
+type = "wall"
+[[boundary]]
+name = "low"
+type = "inlet"
+velocity = [0.0, 0.0, 0.5]
+[[boundary]]
+name = "high"
+type = "outlet"
+[numerics]
+time_step = 3e-4
+end_time = 6e-4
+[output]
+fields = "drum"
+every = 1
+TOML
+mkdir cases
+sed 's/^kind.*/kind = "cgns"\nfile = "..\/drum_000000.cgns"/; /^radius/d; /^length/d; /^cells/d; s/"drum"/"again"/' \
+  drum.toml >cases/again.toml
+expect 0 "mesh: 288 cells of" drum.toml
+drum=$("${launch[@]}" "$program" drum.toml | grep -E "^(wall|low|high|sum of fluxes|pressure) " | sort)
+again=$("${launch[@]}" "$program" cases/again.toml | grep -E "^(wall|low|high|sum of fluxes|pressure) " | sort)
+[[ $drum == "$again" ]] || {
+  failures=$((failures + 1))
+  printf 'the drum and its copy differ\n%s\n%s\n' "$drum" "$again"
+}
+sed 's/"high"/"top"/' cases/again.toml >cases/names.toml
+expect 1 'error: cases/names.toml: [[boundary]] "top": the grid has no boundary of that name; the grid'"'"'s boundaries are: high, low, wall' \
+  cases/names.toml
+sed 's/drum_0/none_0/' cases/again.toml >cases/none.toml
+expect 1 'error: cases/none.toml: [grid] file = "cases/../none_000000.cgns": cannot be read: No such file or directory' \
+  cases/none.toml
+
 expect 0 "granflux_cfd 0." --version
 expect 0 "case file (TOML)" --help
 

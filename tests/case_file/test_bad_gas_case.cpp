@@ -24,7 +24,8 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 const std::vector<Mistake> mistakes{
     {"kind = \"box\"", "kind = \"sphere\"",
-     "bed.toml: [grid] kind = \"sphere\": must be one of \"box\", \"annulus\", \"cylinder\""},
+     "bed.toml: [grid] kind = \"sphere\": must be one of \"box\", \"annulus\", \"cylinder\", "
+     "\"cgns\""},
     {"size = [0.044, 0.010, 0.120]\n", "",
      "bed.toml: [grid] size is missing: must be three numbers > 0 (m), as [x, y, z]"},
     {"size = [0.044, 0.010, 0.120]", "size = [0.044, 0.0, 0.120]",
@@ -208,6 +209,15 @@ const std::vector<RoundMistake> round_mistakes{
      "bed.toml: [grid] bulge = 1: must be a number >= 0 and < 1"},
     {cylinder_case, "name = \"wall\"", "name = \"wall\"\nangles = [0, 90]",
      "bed.toml: [[boundary]] 1 \"wall\" angles = [0, 90]: not allowed: only an annulus has arcs"},
+    {cgns_case, "scale = 0.001", "scale = 0",
+     "bed.toml: [grid] scale = 0: must be a number > 0 (m per unit of the file)"},
+    {cgns_case, "file = \"no/such/drum.cgns\"", "",
+     "bed.toml: [grid] file is missing: must be a text in quotes"},
+    {cgns_case, "name = \"shell\"", "name = \"shell\"\nside = \"x_low\"",
+     "bed.toml: [[boundary]] 1 \"shell\" side = \"x_low\": not allowed: only a box has sides; the "
+     "name is that of a boundary of the grid"},
+    {cgns_case, "scale", "scale",
+     "[grid] file = \"no/such/drum.cgns\": cannot be read: No such file or directory"},
 };
 
 class BadRoundGrid : public testing::TestWithParam<RoundMistake> {};

@@ -149,6 +149,16 @@ TEST(ReadGasCase, TakesEveryKeyOfACylinder) {
   EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"wall", "low", "high"}));
 }
 
+TEST(ReadGasCase, TakesEveryKeyOfAGridFile) {
+  CaseFile file = CaseFile::parse(cgns_case, "cases/drum.toml");
+  const auto grid = std::get<CgnsGrid>(read_gas_case(file).grid);
+  EXPECT_EQ(grid.file, "cases/no/such/drum.cgns");
+  EXPECT_EQ(grid.base, "Drum");
+  EXPECT_EQ(grid.scale, 0.001);
+  CaseFile absolute = CaseFile::parse(replaced(cgns_case, "no/such", "/no/such"), "cases/a.toml");
+  EXPECT_EQ(std::get<CgnsGrid>(read_gas_case(absolute).grid).file, "/no/such/drum.cgns");
+}
+
 TEST(ReadGasCase, PatchesShareASide) {
   const GasCase c = gas_case_of(with("side = \"z_low\"", "side = \"z_low\"\nto = [0.022, 1, 0]") +
                                 "[[boundary]]\nname = \"floor\"\nside = \"z_low\"\n"

@@ -11,6 +11,7 @@
 
 #include <granflux/cfd/annulus_grid.hpp>
 #include <granflux/cfd/box_mesh.hpp>
+#include <granflux/cfd/cgns_reader.hpp>
 #include <granflux/cfd/cylinder_grid.hpp>
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/pressure_solver.hpp>
@@ -18,7 +19,7 @@
 namespace granflux::cfd {
 
 /// What a grid is made from; make_mesh in case_mesh.hpp makes it.
-using GridDescription = std::variant<BoxGrid, AnnulusGrid, CylinderGrid>;
+using GridDescription = std::variant<BoxGrid, AnnulusGrid, CylinderGrid, CgnsGrid>;
 
 struct Fluid {
   double density = 1.2;      ///< kg/m3
