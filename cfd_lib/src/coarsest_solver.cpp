@@ -6,66 +6,32 @@
 
 #include <granflux/cfd/error.hpp>
 
+#include "cell_numbering.hpp"
+
 namespace granflux::cfd {
 
 namespace {
 
-constexpr int faces_per_cell = 6;
-
-template <class Body> void for_each_in_order(const LevelLayout& layout, Body&& body) {
-  for (int k = 0; k < layout.cells[2]; ++k)
-    for (int j = 0; j < layout.cells[1]; ++j)
-      for (int i = 0; i < layout.cells[0]; ++i)
-        body(layout.at(i, j, k));
-}
+constexpr int faces_per_cell = CellNumbering::faces;
 
 } // namespace
 
 struct CoarsestSolver::Impl {
-  Impl(const Mesh& m, bool is_singular) : mesh(m), singular(is_singular) {
+  Impl(const Mesh& m, bool is_singular)
+      : mesh(m), singular(is_singular), numbering(m), cells(numbering.cells),
+        neighbours(std::size_t(cells)), all(neighbours.size() * faces_per_cell), rhs(cells),
+        solution(cells) {
     MPI_Comm_rank(mesh.comm, &rank);
-    int ranks = 1;
-    MPI_Comm_size(mesh.comm, &ranks);
-    counts.assign(std::size_t(ranks), 0);
-    for (const BlockInfo& info : mesh.blocks) {
-      first.push_back(cells);
-      const int size = info.cells[0] * info.cells[1] * info.cells[2];
-      cells += size;
-      counts[std::size_t(info.rank)] += size;
-    }
-    // Ranks own blocks in increasing order, so concatenation by rank is the global numbering.
-    starts.assign(std::size_t(ranks), 0);
-    for (std::size_t r = 1; r < starts.size(); ++r)
-      starts[r] = starts[r - 1] + counts[r - 1];
-    for (int id = 0; id < int(mesh.blocks.size()); ++id) {
-      const Index3 n = mesh.blocks[std::size_t(id)].cells;
-      for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j)
-          for (int i = 0; i < n[0]; ++i) {
-            std::array<int, faces_per_cell> around{};
-            for (int f = 0; f < faces_per_cell; ++f) {
-              Index3 c{i, j, k};
-              c[std::size_t(f / 2)] += f % 2 ? 1 : -1;
-              const auto there = resolve(mesh, {id, c});
-              around[std::size_t(f)] = there ? number(*there) : -1;
-            }
-            neighbours.push_back(around);
-          }
-    }
-    mine.resize(std::size_t(counts[std::size_t(rank)]) * faces_per_cell);
-    all.resize(std::size_t(cells) * faces_per_cell);
-    rhs.resize(cells);
-    solution.resize(cells);
-  }
-
-  [[nodiscard]] int number(const CellRef& ref) const {
-    const Index3& n = mesh.blocks[std::size_t(ref.block)].cells;
-    return first[std::size_t(ref.block)] + ref.cell[0] + n[0] * (ref.cell[1] + n[1] * ref.cell[2]);
+    for (int id = 0; id < int(mesh.blocks.size()); ++id)
+      for_each_in_order(mesh.blocks[std::size_t(id)].cells, [&](const Index3& cell) {
+        neighbours[std::size_t(numbering.of({id, cell}))] = numbering.around(id, cell);
+      });
+    mine.resize(std::size_t(numbering.counts[std::size_t(rank)]) * faces_per_cell);
   }
 
   /// Values of `each` numbers a cell from `mine` of every rank to `to` of all.
   void gather(double* to, int each) {
-    std::vector<int> sizes = counts, offsets = starts;
+    std::vector<int> sizes = numbering.counts, offsets = numbering.starts;
     for (std::size_t r = 0; r < sizes.size(); ++r)
       sizes[r] *= each, offsets[r] *= each;
     MPI_Allgatherv(mine.data(), sizes[std::size_t(rank)], MPI_DOUBLE, to, sizes.data(),
@@ -74,9 +40,8 @@ struct CoarsestSolver::Impl {
 
   const Mesh& mesh;
   bool singular;
-  int rank = 0, cells = 0;
-  std::vector<int> first;          ///< global number of each block's first cell
-  std::vector<int> counts, starts; ///< cells of each rank, and before it
+  CellNumbering numbering;
+  int rank = 0, cells;
   std::vector<std::array<int, faces_per_cell>> neighbours;
   std::vector<double> mine, all;
   Eigen::VectorXd rhs, solution;
@@ -95,7 +60,8 @@ void CoarsestSolver::factorise(const Level& level) {
   Impl& s = *impl_;
   std::size_t at = 0;
   for (const LevelBlock& block : level.blocks)
-    for_each_in_order(block.layout, [&](std::ptrdiff_t c) {
+    for_each_in_order(block.layout.cells, [&](const Index3& cell) {
+      const std::ptrdiff_t c = block.layout.at(cell);
       for (std::size_t d = 0; d < 3; ++d) {
         s.mine[at++] = block.coefficient[d].data()[c];
         s.mine[at++] = block.coefficient[d].data()[c + block.layout.stride[d]];
@@ -133,7 +99,9 @@ void CoarsestSolver::solve(Level& level) {
   Impl& s = *impl_;
   std::size_t at = 0;
   for (const LevelBlock& block : level.blocks)
-    for_each_in_order(block.layout, [&](std::ptrdiff_t c) { s.mine[at++] = block.rhs.data()[c]; });
+    for_each_in_order(block.layout.cells, [&](const Index3& cell) {
+      s.mine[at++] = block.rhs.data()[block.layout.at(cell)];
+    });
   s.gather(s.rhs.data(), 1);
   if (s.singular)
     s.rhs.array() -= s.rhs.mean();
@@ -142,9 +110,10 @@ void CoarsestSolver::solve(Level& level) {
     s.solution.array() -= s.solution.mean();
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
-    int n = s.first[std::size_t(level.mesh.local[b].id)];
+    int n = s.numbering.first[std::size_t(level.mesh.local[b].id)];
     double product = 0;
-    for_each_in_order(block.layout, [&](std::ptrdiff_t c) {
+    for_each_in_order(block.layout.cells, [&](const Index3& cell) {
+      const std::ptrdiff_t c = block.layout.at(cell);
       block.x.data()[c] = float(s.solution[n++]);
       product += double(block.rhs.data()[c]) * double(block.x.data()[c]);
     });

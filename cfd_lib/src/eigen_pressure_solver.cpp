@@ -7,6 +7,8 @@
 
 #include <granflux/cfd/error.hpp>
 
+#include "cell_numbering.hpp"
+
 namespace granflux::cfd {
 
 namespace {
@@ -19,19 +21,16 @@ using Matrix = Eigen::SparseMatrix<double>;
 class EigenPressureSolver final : public PressureSolver {
 public:
   EigenPressureSolver(const Mesh& mesh, bool singular, double tolerance)
-      : mesh_(mesh), singular_(singular), tolerance_(tolerance) {
+      : mesh_(mesh), singular_(singular), tolerance_(tolerance), numbering_(mesh),
+        cells_(numbering_.cells) {
     MPI_Comm_rank(mesh.comm, &rank_);
-    int ranks = 1;
-    MPI_Comm_size(mesh.comm, &ranks);
-    counts_.assign(std::size_t(ranks), 0);
-    for (const BlockInfo& info : mesh.blocks) {
-      first_.push_back(cells_);
-      const int size = info.cells[0] * info.cells[1] * info.cells[2];
-      cells_ += size;
-      counts_[std::size_t(info.rank)] += size;
-    }
     if (rank_ == 0)
-      number_neighbours();
+      for (int id = 0; id < int(mesh.blocks.size()); ++id)
+        for_each_in_order(mesh.blocks[std::size_t(id)].cells, [&](const Index3& cell) {
+          const auto number = std::size_t(numbering_.of({id, cell}));
+          neighbours_.resize(std::max(neighbours_.size(), number + 1));
+          neighbours_[number] = numbering_.around(id, cell);
+        });
   }
 
   PressureReport solve(const PressureSystem& system, BlockFields& p, FirstGuess) override {
@@ -48,51 +47,23 @@ public:
       throw NumericalError("pressure equation: the factorisation failed; a coefficient is zero or "
                            "not a number");
     for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
-      int n = first_[std::size_t(mesh_.local[b].id)];
-      for_each_in_order(mesh_.local[b].layout,
-                        [&](std::ptrdiff_t c) { p[b][c] = values[std::size_t(n++)]; });
+      int n = numbering_.first[std::size_t(mesh_.local[b].id)];
+      const Layout& layout = mesh_.local[b].layout;
+      for_each_in_order(layout.cells, [&](const Index3& cell) {
+        p[b][layout.at(cell)] = values[std::size_t(n++)];
+      });
     }
     return {int(values[std::size_t(cells_)]), values[std::size_t(cells_) + 1]};
   }
 
 private:
-  template <class Body> static void for_each_in_order(const Layout& layout, Body&& body) {
-    for (int k = 0; k < layout.cells[2]; ++k)
-      for (int j = 0; j < layout.cells[1]; ++j)
-        for (int i = 0; i < layout.cells[0]; ++i)
-          body(layout.at(i, j, k));
-  }
-
-  /// Global number of the neighbour over each of the six faces, -1 beyond a boundary.
-  void number_neighbours() {
-    for (int id = 0; id < int(mesh_.blocks.size()); ++id) {
-      const Index3 n = mesh_.blocks[std::size_t(id)].cells;
-      for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j)
-          for (int i = 0; i < n[0]; ++i) {
-            std::array<int, 6> around{};
-            for (int f = 0; f < 6; ++f) {
-              Index3 c{i, j, k};
-              c[std::size_t(f / 2)] += f % 2 ? 1 : -1;
-              const auto there = resolve(mesh_, {id, c});
-              around[std::size_t(f)] = there ? number(*there) : -1;
-            }
-            neighbours_.push_back(around);
-          }
-    }
-  }
-
-  [[nodiscard]] int number(const CellRef& ref) const {
-    const Index3& n = mesh_.blocks[std::size_t(ref.block)].cells;
-    return first_[std::size_t(ref.block)] + ref.cell[0] + n[0] * (ref.cell[1] + n[1] * ref.cell[2]);
-  }
-
   std::vector<double> gather(const PressureSystem& system) const {
     std::vector<double> mine;
-    mine.reserve(std::size_t(counts_[std::size_t(rank_)]) * values_per_cell);
+    mine.reserve(std::size_t(numbering_.counts[std::size_t(rank_)]) * values_per_cell);
     for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
       const Layout& layout = mesh_.local[b].layout;
-      for_each_in_order(layout, [&](std::ptrdiff_t c) {
+      for_each_in_order(layout.cells, [&](const Index3& cell) {
+        const std::ptrdiff_t c = layout.at(cell);
         for (std::size_t d = 0; d < 3; ++d) {
           mine.push_back(system.coefficient[b][d][c]);
           mine.push_back(system.coefficient[b][d][c + layout.stride[d]]);
@@ -100,15 +71,10 @@ private:
         mine.push_back(system.rhs[b][c]);
       });
     }
-    // Ranks own blocks in increasing order, so concatenation by rank is the global numbering.
-    std::vector<int> sizes, starts;
-    int start = 0;
-    for (const int count : counts_) {
-      starts.push_back(start);
-      sizes.push_back(count * values_per_cell);
-      start += sizes.back();
-    }
-    std::vector<double> all(rank_ == 0 ? std::size_t(start) : 0);
+    std::vector<int> sizes = numbering_.counts, starts = numbering_.starts;
+    for (std::size_t r = 0; r < sizes.size(); ++r)
+      sizes[r] *= values_per_cell, starts[r] *= values_per_cell;
+    std::vector<double> all(rank_ == 0 ? std::size_t(cells_) * values_per_cell : 0);
     MPI_Gatherv(mine.data(), int(mine.size()), MPI_DOUBLE, all.data(), sizes.data(), starts.data(),
                 MPI_DOUBLE, 0, mesh_.comm);
     return all;
@@ -177,10 +143,9 @@ private:
   const Mesh& mesh_;
   bool singular_;
   double tolerance_;
-  int rank_ = 0, cells_ = 0;
-  std::vector<int> first_;  ///< global number of each block's first cell
-  std::vector<int> counts_; ///< cells of each rank
-  std::vector<std::array<int, 6>> neighbours_;
+  CellNumbering numbering_;
+  int rank_ = 0, cells_;
+  std::vector<std::array<int, CellNumbering::faces>> neighbours_; ///< on rank 0
   bool analysed_ = false, failed_ = false;
   Matrix lower_;
   Eigen::SimplicialLDLT<Matrix> direct_;

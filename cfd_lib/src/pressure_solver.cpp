@@ -20,9 +20,11 @@ std::unique_ptr<PressureSolver> make_pressure_solver(PressureMethod method, cons
       cells += long(info.cells[0]) * info.cells[1] * info.cells[2];
     method = cells <= largest_direct ? PressureMethod::direct : PressureMethod::multigrid;
   }
-  return method == PressureMethod::direct
-             ? make_eigen_pressure_solver(mesh, singular, tolerance)
-             : make_multigrid_pressure_solver(mesh, singular, tolerance);
+  if (method == PressureMethod::direct)
+    return make_eigen_pressure_solver(mesh, singular, tolerance);
+  if (method == PressureMethod::hypre)
+    return make_hypre_pressure_solver(mesh, singular, tolerance);
+  return make_multigrid_pressure_solver(mesh, singular, tolerance);
 }
 
 } // namespace granflux::cfd

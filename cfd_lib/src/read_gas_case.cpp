@@ -158,7 +158,8 @@ Numerics read_numerics(const CaseTable& table) {
       table.choice<PressureMethod>("pressure_solver", numerics.pressure_solver,
                                    {{"auto", PressureMethod::automatic},
                                     {"direct", PressureMethod::direct},
-                                    {"multigrid", PressureMethod::multigrid}});
+                                    {"multigrid", PressureMethod::multigrid},
+                                    {"hypre", PressureMethod::hypre}});
   constexpr NumberRange tolerance{.low = 1e-15, .high = 1e-2};
   numerics.pressure_tolerance =
       table.number("pressure_tolerance", numerics.pressure_tolerance, tolerance, "");

@@ -3,7 +3,7 @@
 
 // Time of the pressure solver per cell and iteration beside the machine's triad, and the cost of
 // new and of unchanged coefficients. A medium and a size a line:
-//   bench_pressure_solver [multigrid|hypre] [cells of a side ...]
+//   bench_pressure_solver [hypre] [cells of a side ...]
 
 #include <algorithm>
 #include <cstdio>
@@ -81,7 +81,9 @@ int main(int argc, char** argv) {
   PressureMethod method = PressureMethod::multigrid;
   std::vector<int> sizes;
   for (int a = 1; a < argc; ++a)
-    if (std::strcmp(argv[a], "multigrid") != 0)
+    if (std::strcmp(argv[a], "hypre") == 0)
+      method = PressureMethod::hypre;
+    else
       sizes.push_back(std::stoi(argv[a]));
   if (sizes.empty())
     sizes = {32, 64, 128};

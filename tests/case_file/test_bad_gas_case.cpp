@@ -128,7 +128,7 @@ const std::vector<Mistake> mistakes{
      "\"limited\"; did you mean upwind2?"},
     {"pressure_solver = \"multigrid\"", "pressure_solver = \"multi\"",
      "bed.toml: [numerics] pressure_solver = \"multi\": must be one of \"auto\", \"direct\", "
-     "\"multigrid\""},
+     "\"multigrid\", \"hypre\""},
     {"pressure_tolerance = 1e-8", "pressure_tolerance = 0.5",
      "bed.toml: [numerics] pressure_tolerance = 0.5: must be a number >= 1e-15 and <= 0.01"},
     {"time_step = 1e-4", "time_step = 0",

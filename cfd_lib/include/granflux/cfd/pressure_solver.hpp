@@ -55,10 +55,16 @@ std::unique_ptr<PressureSolver> make_eigen_pressure_solver(const Mesh& mesh, boo
 std::unique_ptr<PressureSolver> make_multigrid_pressure_solver(const Mesh& mesh, bool singular,
                                                                double tolerance);
 
+/// Conjugate gradients preconditioned by hypre's BoomerAMG, to measure against; ends like the
+/// multigrid solver. Throws ConfigError where hypre was not found when this library was built.
+std::unique_ptr<PressureSolver> make_hypre_pressure_solver(const Mesh& mesh, bool singular,
+                                                           double tolerance);
+
 enum class PressureMethod {
   automatic, ///< the faster one: direct up to 1000 cells, multigrid beyond
   direct,    ///< make_eigen_pressure_solver
-  multigrid  ///< make_multigrid_pressure_solver
+  multigrid, ///< make_multigrid_pressure_solver
+  hypre      ///< make_hypre_pressure_solver
 };
 
 std::unique_ptr<PressureSolver> make_pressure_solver(PressureMethod method, const Mesh& mesh,
