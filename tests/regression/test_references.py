@@ -31,8 +31,8 @@ SPREAD = json.loads((REFERENCES / "manifest.json").read_text())["spread"]
 
 FIRST_TOLERANCE = 1e-12  # relative, after step 1
 HUNDRED_TOLERANCE = 1e-10  # after step 100, and never less later
-# Later, a run may lie this much further from the reference than the furthest of five stock runs that
-# differ from it by rounding only: the furthest of five is small by chance at times. That it is chance
+# Later, a run may lie this much further from the reference than the furthest of three stock runs that
+# differ from it by rounding only: the furthest of three is small by chance at times. That it is chance
 # is seen from the median over all cases, which may not exceed that spread.
 CHANCE = 10.0
 LATE_ROUNDING = 1e-4  # relative: the references of step 10000 are stored with 6 digits

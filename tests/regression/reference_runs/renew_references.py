@@ -44,15 +44,10 @@ MANIFEST = REFERENCES / "manifest.json"
 LATE_COLUMNS = "id type x y z vx vy vz omegax omegay omegaz radius c_contacts".split()
 THOUSAND_DIGITS = 12  # enough for a tolerance that is never below 1e-10
 LATE_DIGITS = 6  # compared by statistics only
-# Runs of the stock program that differ from the reference, one rank, by rounding only: another order
-# of sums, from other processor grids and other neighbour lists.
-ROUNDING_RUNS = [
-    {"ranks": 2, "grid": "2 1 1"},
-    {"ranks": 2, "grid": "1 2 1"},
-    {"ranks": 2, "grid": "1 1 2"},
-    {"skin": 4e-4},
-    {"skin": 6e-4},
-]
+# Runs of the stock program that differ from the reference, one rank, by rounding only: other processor
+# grids sum forces in another order. (Another skin is no such run: new lists at other steps may change
+# what a contact remembers by more than rounding.)
+ROUNDING_RUNS = [{"ranks": 2, "grid": grid} for grid in ("2 1 1", "1 2 1", "1 1 2")]
 
 
 def main():
