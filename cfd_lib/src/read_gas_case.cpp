@@ -84,6 +84,8 @@ void read_inlet(const CaseTable& table, const std::optional<Side>& side,
       "profile", BoundaryCondition::Profile::uniform,
       {{"uniform", BoundaryCondition::Profile::uniform},
        {"parabolic", BoundaryCondition::Profile::parabolic}});
+  if (!side && condition.profile == BoundaryCondition::Profile::parabolic)
+    table.fail("profile", "\"uniform\": a parabola needs a rectangle on the side of a box");
   condition.ramp_time = table.number("ramp_time", 0.0, not_negative, "s");
   if (condition.ramp_time == 0)
     table.refuse("ramp_from", "it needs a ramp_time > 0");

@@ -209,6 +209,10 @@ const std::vector<RoundMistake> round_mistakes{
      "bed.toml: [grid] bulge = 1: must be a number >= 0 and < 1"},
     {cylinder_case, "name = \"wall\"", "name = \"wall\"\nangles = [0, 90]",
      "bed.toml: [[boundary]] 1 \"wall\" angles = [0, 90]: not allowed: only an annulus has arcs"},
+    {cylinder_case, "type = \"inlet\"", "type = \"inlet\"\nprofile = \"parabolic\"",
+     "bed.toml: [[boundary]] 2 \"low\" profile = \"parabolic\": must be \"uniform\": a parabola "
+     "needs "
+     "a rectangle on the side of a box"},
     {cgns_case, "scale = 0.001", "scale = 0",
      "bed.toml: [grid] scale = 0: must be a number > 0 (m per unit of the file)"},
     {cgns_case, "file = \"no/such/drum.cgns\"", "",
