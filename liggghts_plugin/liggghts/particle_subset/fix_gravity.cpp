@@ -16,38 +16,33 @@ namespace {
 
 constexpr int constant = 0; // the first of FixGravity's two choices for varflag
 
-struct Weight {
-  const double* mass; // kg
-  const int* mask;
-  int group;
-  double acceleration[3]; // m/s2
-
-  /// Adds to force [N], in the arithmetic of LIGGGHTS.
-  void add(double* force, Range range) const {
-    for (int i = range.begin; i < range.end; ++i)
-      if (mask[i] & group)
-        for (int d = 0; d < 3; ++d)
-          force[3 * i + d] += mass[i] * acceleration[d];
-  }
-};
-
 } // namespace
 
-void FixGravity::post_force(int vflag) {
+bool FixGravity::begin_own_work(int /*eflag*/, int /*vflag*/) {
   if (varflag != constant || fm || fix_relax || !atom->rmass) {
     say_once(*lmp, "fix gravity with variables, multispheres or relaxed contacts is LIGGGHTS' own");
+    return false;
+  }
+  // The energy is summed if it is asked for.
+  LAMMPS_NS::FixGravity::eflag = 0;
+  energy_due_ = true;
+  return true;
+}
+
+void FixGravity::own_work(int /*thread*/, Range own) {
+  const double acceleration[3] = {xacc, yacc, zacc};
+  for (int i = own.begin; i < own.end; ++i)
+    if (atom->mask[i] & groupbit)
+      for (int d = 0; d < 3; ++d)
+        atom->f[i][d] += atom->rmass[i] * acceleration[d];
+}
+
+void FixGravity::post_force(int vflag) {
+  if (!begin_own_work(0, vflag)) {
     LAMMPS_NS::FixGravity::post_force(vflag);
     return;
   }
-  eflag = 0;
-  energy_due_ = true;
-  if (atom->nlocal == 0)
-    return;
-  const Weight weight{.mass = atom->rmass,
-                      .mask = atom->mask,
-                      .group = groupbit,
-                      .acceleration = {xacc, yacc, zacc}};
-  for_each_subset(atom->nlocal, [&](Range range) { weight.add(atom->f[0], range); });
+  for_each_subset(atom->nlocal, [&](Range range) { own_work(0, range); });
 }
 
 double FixGravity::compute_scalar() {

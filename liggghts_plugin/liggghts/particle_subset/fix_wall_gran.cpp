@@ -4,7 +4,7 @@
 #include "fix_wall_gran.hpp"
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <string>
 
 #include <liggghts/atom.h>
@@ -44,17 +44,10 @@ bool laws_are_separate(LIGGGHTS::Walls::IGranularWall& wall) {
 
 } // namespace
 
-struct FixWallGran::Mesh {
-  LAMMPS_NS::TriMesh* triangles;
-  LAMMPS_NS::FixContactHistoryMesh* history;
-  double*** velocity; // of the three corners of each triangle, or null
-  int number;
-};
-
 void FixWallGran::pre_neighbor() {
   LAMMPS_NS::FixWallGran::pre_neighbor();
-  for (WallPairs& pairs : pairs_)
-    pairs.current = false;
+  for (Mesh& mesh : meshes_)
+    mesh.pairs.current = false;
 }
 
 /// Null: threads may share the work.
@@ -76,30 +69,56 @@ const char* FixWallGran::reason_for_stock() const {
   return nullptr;
 }
 
-bool FixWallGran::threads_may_share() {
-  if (addflag_) // asked by a compute, contact by contact
-    return false;
-  const char* reason = reason_for_stock();
-  if (reason)
-    say_once(*lmp, std::string("fix wall/gran is LIGGGHTS' own for ") + reason);
-  return !reason;
+/// Laws ask the fix for its wall type: it cannot be that of several meshes at once.
+bool FixWallGran::all_of_one_type() const {
+  for (int mesh = 1; mesh < n_FixMesh_; ++mesh)
+    if (FixMesh_list_[mesh]->atomTypeWall() != FixMesh_list_[0]->atomTypeWall())
+      return false;
+  return true;
 }
 
-void FixWallGran::post_force_primitive(int vflag) {
-  if (!threads_may_share()) {
-    LAMMPS_NS::FixWallGran::post_force_primitive(vflag);
-    return;
+bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
+  if (const char* reason = reason_for_stock()) {
+    say_once(*lmp, std::string("fix wall/gran is LIGGGHTS' own for ") + reason);
+    return false;
   }
-  std::array<double, 3> wall_velocity{};
+  if (!all_of_one_type())
+    return false;
+  computeflag_ = shearupdate_ = 1; // a step, not its setup
+  addflag_ = 0;                    // not asked for by a compute
+  x_ = atom->x;
+  f_ = atom->f;
+  radius_ = atom->radius;
+  cutneighmax_ = neighbor->cutneighmax;
+  if (meshwall_ == 1) {
+    for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
+      begin_mesh(mesh);
+  }
+  return true;
+}
+
+void FixWallGran::own_work(int /*thread*/, Range own) {
+  if (store_force_)
+    for (int i = own.begin; i < own.end; ++i)
+      std::fill_n(fix_wallforce_->array_atom[i], 3, 0.0);
+  if (meshwall_ == 1)
+    for (Mesh& mesh : meshes_)
+      touch_mesh(mesh, own);
+  else
+    touch_primitive(own);
+}
+
+void FixWallGran::touch_primitive(Range own) {
+  double wall_velocity[3] = {0, 0, 0};
   if (shear_)
-    wall_velocity[std::size_t(shearDim_)] = vshear_;
-  int* near = nullptr;
-  const int count = primitiveWall_->getNeighbors(near);
-  for_each_subset(count, [&](Range range) {
-    for (int k = range.begin; k < range.end; ++k)
-      if (atom->mask[near[k]] & groupbit)
-        touch_primitive(near[k], wall_velocity.data());
-  });
+    wall_velocity[shearDim_] = vshear_;
+  int* first = nullptr;
+  const int count = primitiveWall_->getNeighbors(first);
+  const std::span<const int> near(first, std::size_t(count)); // ascending
+  for (auto p = std::lower_bound(near.begin(), near.end(), own.begin);
+       p != near.end() && *p < own.end; ++p)
+    if (atom->mask[*p] & groupbit)
+      touch_primitive(*p, wall_velocity);
 }
 
 void FixWallGran::touch_primitive(int particle, const double* wall_velocity) {
@@ -129,55 +148,68 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity) {
   impl->compute_force(this, contact, true, velocity);
 }
 
-void FixWallGran::post_force_mesh(int vflag) {
-  if (!threads_may_share()) {
-    LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
-    return;
-  }
-  pairs_.resize(std::size_t(n_FixMesh_));
-  for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
-    evaluate_mesh(mesh);
-}
-
-void FixWallGran::evaluate_mesh(int number) {
+void FixWallGran::begin_mesh(int number) {
   using CornerVelocities = LAMMPS_NS::MultiVectorContainer<double, 3, 3>;
   LAMMPS_NS::FixMeshSurface& fix = *FixMesh_list_[number];
   LAMMPS_NS::TriMesh& triangles = *fix.triMesh();
-  auto* velocities = triangles.prop().getElementProperty<CornerVelocities>("v");
-  const Mesh mesh{.triangles = &triangles,
-                  .history = fix.contactHistory(),
-                  .velocity = velocities ? velocities->begin() : nullptr,
-                  .number = number};
+  meshes_.resize(std::size_t(n_FixMesh_));
+  Mesh& mesh = meshes_[std::size_t(number)];
   atom_type_wall_ = fix.atomTypeWall();
+  auto* velocities = triangles.prop().getElementProperty<CornerVelocities>("v");
+  mesh.triangles = &triangles;
+  mesh.history = fix.contactHistory();
+  mesh.velocity = velocities ? velocities->begin() : nullptr;
+  mesh.number = number;
   if (mesh.history)
     mesh.history->markAllContacts();
-
-  WallPairs& pairs = pairs_[std::size_t(number)];
-  if (!pairs.current)
-    pairs.turn_round(triangles.sizeLocal() + triangles.sizeGhost(), atom->nlocal,
-                     [lists = fix.meshNeighlist()](int triangle) -> const std::vector<int>& {
-                       return lists->get_contact_list(triangle);
-                     });
+  if (!mesh.pairs.current)
+    mesh.pairs.turn_round(triangles.sizeLocal() + triangles.sizeGhost(), atom->nlocal,
+                          [lists = fix.meshNeighlist()](int triangle) -> const std::vector<int>& {
+                            return lists->get_contact_list(triangle);
+                          });
   // Stress, wear and the like are summed over the contacts of a mesh: its style then names them.
   const std::string_view mesh_style = fix.style;
   const bool sums = mesh_style != "mesh/surface" && mesh_style != "mesh/surface/planar";
-  forces_on_mesh_.assign(sums ? pairs.triangle.size() : 0, {});
+  mesh.forces.assign(sums ? mesh.pairs.triangle.size() : 0, {});
+}
 
-  for_each_subset(int(pairs.particle.size()), [&](Range range) {
-    for (int row = range.begin; row < range.end; ++row)
-      for (int k = pairs.begin[std::size_t(row)]; k < pairs.begin[std::size_t(row) + 1]; ++k) {
-        const auto pair = std::size_t(k);
-        touch_mesh(mesh, pairs.particle[std::size_t(row)], pairs.triangle[pair],
-                   sums ? &forces_on_mesh_[std::size_t(pairs.place[pair])] : nullptr);
-      }
-  });
-  for (ForceOnMesh& on : forces_on_mesh_) // in LIGGGHTS' order: its sums, to the last bit
-    if (on.acts)
-      fix.add_particle_contribution(on.particle, on.force, on.to_wall, on.triangle,
-                                    on.wall_velocity);
+void FixWallGran::touch_mesh(Mesh& mesh, Range own) {
+  const WallPairs& pairs = mesh.pairs;
+  const auto first = std::lower_bound(pairs.particle.begin(), pairs.particle.end(), own.begin);
+  for (auto row = std::size_t(first - pairs.particle.begin());
+       row < pairs.particle.size() && pairs.particle[row] < own.end; ++row)
+    for (auto pair = std::size_t(pairs.begin[row]); pair < std::size_t(pairs.begin[row + 1]);
+         ++pair)
+      touch_mesh(mesh, pairs.particle[row], pairs.triangle[pair],
+                 mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])]);
   if (mesh.history)
-    for_each_subset(atom->nlocal,
-                    [&](Range range) { mesh.history->cleanUpContacts(range.begin, range.end); });
+    mesh.history->cleanUpContacts(own.begin, own.end);
+}
+
+void FixWallGran::sum_on_mesh(Mesh& mesh) {
+  for (ForceOnMesh& on : mesh.forces) // in LIGGGHTS' order: its sums, to the last bit
+    if (on.acts)
+      FixMesh_list_[mesh.number]->add_particle_contribution(on.particle, on.force, on.to_wall,
+                                                            on.triangle, on.wall_velocity);
+}
+
+void FixWallGran::end_own_work() {
+  for (Mesh& mesh : meshes_)
+    sum_on_mesh(mesh);
+}
+
+/// Where meshes are of different types, and in the setup of a run: one after the other.
+void FixWallGran::post_force_mesh(int vflag) {
+  if (addflag_ || reason_for_stock()) { // addflag: asked by a compute, contact by contact
+    LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
+    return;
+  }
+  for (int number = 0; number < n_FixMesh_; ++number) {
+    begin_mesh(number);
+    Mesh& mesh = meshes_[std::size_t(number)];
+    for_each_subset(atom->nlocal, [&](Range range) { touch_mesh(mesh, range); });
+    sum_on_mesh(mesh);
+  }
 }
 
 void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh) {

@@ -11,6 +11,7 @@
 
 #include <liggghts/fix_wall_gran.h>
 
+#include "own_work.hpp"
 #include "wall_pairs.hpp"
 
 namespace granflux::particle_subset {
@@ -18,33 +19,45 @@ namespace granflux::particle_subset {
 /// fix wall/gran, primitives and meshes, with every thread evaluating contacts of its own
 /// particles by LIGGGHTS' own law. What would make threads meet (contacts stored or printed one by
 /// one, heat of walls, energy budgets, rigid bodies, multi-contact laws) is LIGGGHTS' own.
-class FixWallGran : public LAMMPS_NS::FixWallGran {
+class FixWallGran : public LAMMPS_NS::FixWallGran, public OwnWork {
 public:
   using LAMMPS_NS::FixWallGran::FixWallGran;
 
   void pre_neighbor() override;
 
+  bool begin_own_work(int eflag, int vflag) override;
+  void own_work(int thread, Range own) override;
+  void end_own_work() override;
+
 protected:
-  void post_force_primitive(int vflag) override;
   void post_force_mesh(int vflag) override;
 
 private:
-  struct Mesh;
   /// What one contact does to the mesh.
   struct ForceOnMesh {
     bool acts = false;
     int particle, triangle;
     double force[3], to_wall[3], wall_velocity[3]; // N on the particle, m, m/s
   };
+  struct Mesh {
+    LAMMPS_NS::TriMesh* triangles = nullptr;
+    LAMMPS_NS::FixContactHistoryMesh* history = nullptr;
+    double*** velocity = nullptr; // of the three corners of each triangle, or null
+    int number = 0;
+    WallPairs pairs;
+    std::vector<ForceOnMesh> forces; // of each pair, where a module of the mesh sums them
+  };
 
   [[nodiscard]] const char* reason_for_stock() const;
-  [[nodiscard]] bool threads_may_share();
+  [[nodiscard]] bool all_of_one_type() const;
+  void touch_primitive(Range own);
   void touch_primitive(int particle, const double* wall_velocity);
-  void evaluate_mesh(int number);
+  void begin_mesh(int number);
+  void sum_on_mesh(Mesh& mesh);
+  void touch_mesh(Mesh& mesh, Range own);
   void touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh);
 
-  std::vector<WallPairs> pairs_; // of each mesh
-  std::vector<ForceOnMesh> forces_on_mesh_;
+  std::vector<Mesh> meshes_;
 };
 
 } // namespace granflux::particle_subset

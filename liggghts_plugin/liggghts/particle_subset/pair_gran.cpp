@@ -22,6 +22,7 @@
 
 #include "fix_contact_history.hpp"
 #include "say_once.hpp"
+#include "work_times.hpp"
 
 namespace granflux::particle_subset {
 
@@ -161,11 +162,33 @@ Particles PairGran::particles() const {
 }
 
 void PairGran::compute(int eflag, int vflag) {
-  // Where contacts are remembered, the fix has taken the memory over before every build.
-  const bool lists_are_old = neighbor->ago == 0 && !(history && computeflag_);
-  if (by_subset_ && lists_are_old)
-    build_lists();
+  if (by_subset_)
+    build_lists_if_old();
   PairGranProxy::compute(eflag, vflag);
+}
+
+bool PairGran::begin_own_work(int eflag, int vflag) {
+  if (!by_subset_ || forceoff() || update->setupflag)
+    return false;
+  shearupdate_ = 1; // as PairGranProxy::compute() has it in a step
+  if (!only_forces_wanted(eflag, vflag, 0))
+    return false;
+  build_lists_if_old();
+  computeflag_ = 1;
+  evflag = vflag_fdotr = 0;
+  return true;
+}
+
+void PairGran::own_work(int thread, Range /*own*/) {
+  kernel_->add(particles(), lists_.of(thread), update->dt);
+}
+
+void PairGran::build_lists_if_old() {
+  // Where contacts are remembered, the fix has taken the memory over before every build.
+  if (neighbor->ago == 0 && !(history && computeflag_)) {
+    const Lap lap(work_times().contact_lists);
+    build_lists();
+  }
 }
 
 void PairGran::build_lists() {

@@ -13,13 +13,14 @@
 #include "contact_kernel.hpp"
 #include "contact_lists.hpp"
 #include "gran_words.hpp"
+#include "own_work.hpp"
 
 namespace granflux::particle_subset {
 
 /// `pair_style gran` with the contact forces computed by particle subset. Everything else is
 /// LIGGGHTS' own: what has no form by subset, and steps that ask for more than forces (virial,
 /// contacts for output), go through its loop.
-class PairGran : public LAMMPS_NS::PairGranProxy {
+class PairGran : public LAMMPS_NS::PairGranProxy, public OwnWork {
 public:
   explicit PairGran(LAMMPS_NS::LAMMPS* lammps);
   ~PairGran() override;
@@ -30,12 +31,17 @@ public:
   void compute(int eflag, int vflag) override;
   void compute_force(int eflag, int vflag, int addflag) override;
 
+  /// Forces alone, in a step: what compute() does.
+  bool begin_own_work(int eflag, int vflag) override;
+  void own_work(int thread, Range own) override;
+
   /// Whether contacts are remembered in the lists here, not in LIGGGHTS' own.
   [[nodiscard]] bool holds_history() const { return by_subset_; }
   void store_history(PartnerHistory kept);
 
 private:
   [[nodiscard]] std::string reason_for_stock();
+  void build_lists_if_old();
   void build_lists();
   void show_lists_to_host();
   [[nodiscard]] Particles particles() const;

@@ -54,6 +54,18 @@ bool only_own_fixes_at(const LAMMPS_NS::Modify& modify, int stages) {
   return true;
 }
 
+/// Fixes called before the forces are computed that neither set nor read any.
+bool look_at_no_forces(const LAMMPS_NS::Modify& modify) {
+  for (int i = 0; i < modify.nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *modify.fix[i];
+    const std::string_view style = fix.style;
+    if ((modify.fmask[i] & PRE_FORCE) && !moves_meshes_only(fix) && style != "wall/gran" &&
+        style != "neighlist/mesh" && !style.starts_with("contacthistory"))
+      return false;
+  }
+  return true;
+}
+
 bool any_box_change(const LAMMPS_NS::Modify& modify) {
   for (int i = 0; i < modify.nfix; ++i) {
     const LAMMPS_NS::Fix& fix = *modify.fix[i];
@@ -87,6 +99,14 @@ std::vector<FixNveSphere*> fixes_that_may_owe(const LAMMPS_NS::Modify& modify) {
   return found;
 }
 
+void clear(LAMMPS_NS::Atom* atom, Range range) {
+  const auto bytes = 3 * sizeof(double) * std::size_t(range.size());
+  if (bytes == 0)
+    return;
+  std::memset(atom->f[range.begin], 0, bytes);
+  std::memset(atom->torque[range.begin], 0, bytes);
+}
+
 } // namespace
 
 void Verlet::setup() {
@@ -99,6 +119,7 @@ void Verlet::run(int steps) {
   if (auto* own = dynamic_cast<Neighbor*>(neighbor))
     own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
   may_owe_ = fixes_that_may_owe(*modify);
+  fixes_before_forces_look_at_none_ = look_at_no_forces(*modify);
   load_ = {};
   WorkTimes& times = work_times();
   times = {};
@@ -149,23 +170,7 @@ void Verlet::run_steps(int steps) {
     ++load_.steps;
     load_.particles += atom->nlocal;
     load_.ghosts += atom->nghost;
-    {
-      const Lap lap(times.other_fixes);
-      clear_forces();
-      if (modify->n_pre_force)
-        modify->pre_force(vflag);
-    }
-    timer->stamp();
-    if (pair_compute_flag) {
-      const double lists_before = times.contact_lists;
-      {
-        const Lap lap(times.contacts);
-        force->pair->compute(eflag, vflag);
-      }
-      times.contacts -= times.contact_lists - lists_before;
-      timer->stamp(TIME_PAIR);
-    }
-    post_force();
+    compute_forces();
     {
       const Lap lap(times.integration);
       if (modify->n_pre_final_integrate)
@@ -227,30 +232,67 @@ void Verlet::exchange_and_build_lists(bigint now) {
   timer->stamp(TIME_NEIGHBOR);
 }
 
-void Verlet::post_force() {
+bool Verlet::ClearForces::begin_own_work(int /*eflag*/, int /*vflag*/) {
+  clear(atom, {.begin = atom->nlocal, .end = atom->nlocal + atom->nghost});
+  return true;
+}
+
+void Verlet::ClearForces::own_work(int /*thread*/, Range own) {
+  clear(atom, own);
+}
+
+void Verlet::finish_team() {
+  team_.work(atom->nlocal, work_times().waiting);
+}
+
+void Verlet::add_part(OwnWork* part, double& seconds, auto&& otherwise) {
+  bool begun = false;
+  if (part) {
+    const Lap lap(seconds);
+    begun = part->begin_own_work(eflag, vflag);
+  }
+  if (begun) {
+    team_.add(*part, seconds);
+    return;
+  }
+  finish_team();
+  const Lap lap(seconds);
+  otherwise();
+}
+
+void Verlet::compute_forces() {
   WorkTimes& times = work_times();
+  clear_.atom = atom;
+  add_part(&clear_, times.other_fixes, [] {});
+  if (!fixes_before_forces_look_at_none_)
+    finish_team();
+  if (modify->n_pre_force) {
+    const Lap lap(times.other_fixes);
+    modify->pre_force(vflag);
+  }
+  const double contacts_before = times.contacts;
+  if (pair_compute_flag) {
+    const double lists_before = times.contact_lists;
+    add_part(dynamic_cast<OwnWork*>(force->pair), times.contacts,
+             [&] { force->pair->compute(eflag, vflag); });
+    times.contacts -= times.contact_lists - lists_before;
+  }
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fmask[i] & POST_FORCE) {
       LAMMPS_NS::Fix& fix = *modify->fix[i];
-      const Lap lap(is_wall(fix) ? times.walls : times.other_fixes);
-      if (modify->timing)
-        fix.begin_time_recording();
-      fix.post_force(vflag);
-      if (modify->timing)
-        fix.end_time_recording();
+      // A fix that the host times is called by itself.
+      OwnWork* part = modify->timing ? nullptr : dynamic_cast<OwnWork*>(&fix);
+      add_part(part, is_wall(fix) ? times.walls : times.other_fixes, [&] {
+        if (modify->timing)
+          fix.begin_time_recording();
+        fix.post_force(vflag);
+        if (modify->timing)
+          fix.end_time_recording();
+      });
     }
-}
-
-void Verlet::clear_forces() {
-  const auto clear = [&](Range range) {
-    const auto bytes = 3 * sizeof(double) * std::size_t(range.size());
-    if (bytes == 0)
-      return;
-    std::memset(atom->f[range.begin], 0, bytes);
-    std::memset(atom->torque[range.begin], 0, bytes);
-  };
-  for_each_subset(atom->nlocal, clear);
-  clear({.begin = atom->nlocal, .end = atom->nlocal + atom->nghost});
+  finish_team();
+  timer->array[TIME_PAIR] += times.contacts - contacts_before;
+  timer->stamp();
 }
 
 void Verlet::final_integrate(bool velocities_seen) {

@@ -6,6 +6,8 @@
 
 #include <liggghts/verlet.h>
 
+#include "force_team.hpp"
+#include "own_work.hpp"
 #include "work_report.hpp"
 
 namespace granflux::particle_subset {
@@ -26,16 +28,26 @@ public:
 private:
   void run_steps(int steps);
   void exchange_and_build_lists(LAMMPS_NS::bigint now);
-  void post_force();
+  void compute_forces();
+  void add_part(OwnWork* part, double& seconds, auto&& otherwise);
+  void finish_team();
   [[nodiscard]] bool lists_have_aged();
   void report();
-  void clear_forces();
   void final_integrate(bool velocities_seen);
 
   bool set_up_ = false;                // setup() was called since the last run
   std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
   bool owed_ = false;
+  bool fixes_before_forces_look_at_none_ = false;
   WorkLoad load_; // sums over the steps of a run
+  ForceTeam team_;
+
+  /// Takes the forces of the last step off.
+  struct ClearForces final : OwnWork {
+    LAMMPS_NS::Atom* atom = nullptr;
+    bool begin_own_work(int eflag, int vflag) override;
+    void own_work(int thread, Range own) override;
+  } clear_;
 };
 
 /// Puts Verlet in the place of LIGGGHTS' own where that is about to run spheres.

@@ -16,6 +16,7 @@ struct WorkTimes {
   double neighbour_lists = 0; ///< check of their age, LIGGGHTS' own lists, memory of contacts
   double communication = 0;   ///< ghosts, exchange between ranks, sorting
   double output = 0;
+  double waiting = 0; ///< of the first thread, for the others to finish their forces
   double total = 0;
 };
 

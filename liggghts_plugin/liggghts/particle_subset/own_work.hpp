@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "subset.hpp"
+
+namespace granflux::particle_subset {
+
+/// A part of the forces of a step in which each thread adds to its own particles only and looks at
+/// no forces of others: threads go from one such part to the next without waiting for each other.
+class OwnWork {
+public:
+  /// What one thread has to do before; looks at no forces. False: not in this step, which asks for
+  /// more than forces: the host's own call is to be made.
+  virtual bool begin_own_work(int eflag, int vflag) = 0;
+  /// On each thread, with its share of the rank's particles.
+  virtual void own_work(int thread, Range own) = 0;
+  /// What one thread has to do afterwards.
+  virtual void end_own_work() {}
+
+protected:
+  ~OwnWork() = default;
+};
+
+} // namespace granflux::particle_subset
