@@ -3,7 +3,9 @@
 
 // granflux_cfd: runs the gas of a case file alone, without particles.
 
+#include <atomic>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -17,6 +19,7 @@
 
 #include <granflux/cfd/case_mesh.hpp>
 #include <granflux/cfd/cgns_writer.hpp>
+#include <granflux/cfd/checkpoint.hpp>
 #include <granflux/cfd/deal_blocks.hpp>
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/gas_solver.hpp>
@@ -25,6 +28,7 @@
 #include <granflux/version.hpp>
 
 #include "progress.hpp"
+#include "time_steps.hpp"
 
 namespace {
 
@@ -33,7 +37,8 @@ using namespace granflux::cfd;
 
 struct Options {
   std::string case_file;
-  int threads = 0; ///< 0: as OMP_NUM_THREADS says, else one
+  std::string restart; ///< checkpoint to continue from; empty: start anew
+  int threads = 0;     ///< 0: as OMP_NUM_THREADS says, else one
 };
 
 /// Wall-clock seconds of the parts of a run.
@@ -60,29 +65,27 @@ template <class Work> auto naming_file(const std::string& file, Work&& work) {
   }
 }
 
-/// Equal steps to the end, none longer than the step asked for.
-long count_steps(const Numerics& numerics, const std::string& file) {
+void check_times(const Numerics& numerics, const std::string& file) {
   for (const auto& [key, value] :
        {std::pair{"time_step", numerics.time_step}, std::pair{"end_time", numerics.end_time}})
     if (!(value > 0))
       throw ConfigError(fmt::format("{}: [numerics] {} is missing: a run of the gas alone needs a "
                                     "number > 0 (s)",
                                     file, key));
-  const double steps = std::ceil(numerics.end_time / numerics.time_step * (1 - 1e-12));
   constexpr double most = 1e12;
-  if (steps > most)
+  if (numerics.end_time / numerics.time_step > most)
     throw ConfigError(fmt::format("{}: [numerics] time_step = {}: must be at least end_time / "
                                   "{:g} (s)",
                                   file, numerics.time_step, most));
-  return long(steps);
 }
 
 /// Writes the fields at the start, at the end, and at each first step past a multiple of `every`.
 class FieldOutput {
 public:
-  FieldOutput(const Mesh& mesh, const Output& output) : every_(output.every) {
+  /// `first`: number of the first file.
+  FieldOutput(const Mesh& mesh, const Output& output, long first) : every_(output.every) {
     if (!output.fields.empty())
-      writer_.emplace(mesh, output.fields);
+      writer_.emplace(mesh, output.fields, first);
   }
   void write_if_due(const GasSolver& gas, bool at_end) {
     if (!writer_ || !(at_end || gas.time() >= double(next_) * every_ * (1 - 1e-9)))
@@ -90,6 +93,8 @@ public:
     last_ = writer_->write(gas);
     next_ = long(std::floor(gas.time() / every_ * (1 + 1e-9))) + 1;
   }
+  /// For a run that goes on: as if all up to this time had been written.
+  void skip_to(double time) { next_ = long(std::floor(time / every_ * (1 + 1e-9))) + 1; }
   [[nodiscard]] long files() const { return writer_ ? writer_->next() : 0; }
   [[nodiscard]] const std::string& last() const { return last_; }
 
@@ -118,7 +123,7 @@ std::string size_of(const Mesh& mesh) {
   return fmt::format("{} x {} x {} cells", n[0], n[1], n[2]);
 }
 
-void print_banner(const Mesh& mesh, const GasCase& gas_case, const std::string& file, long steps) {
+void print_banner(const Mesh& mesh, const GasCase& gas_case, const std::string& file) {
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
   fmt::print("granflux_cfd {} ({}, {})\n", version, revision, compiler);
@@ -127,8 +132,13 @@ void print_banner(const Mesh& mesh, const GasCase& gas_case, const std::string& 
   if (ranks > 1)
     fmt::print(", largest load {:.2f} of the mean", imbalance(mesh));
   fmt::print("\n");
-  fmt::print("{} steps of {:.6g} s to t = {:.6g} s\n", steps,
-             gas_case.numerics.end_time / double(steps), gas_case.numerics.end_time);
+  const Numerics& numerics = gas_case.numerics;
+  if (numerics.courant > 0)
+    fmt::print("steps of at most {:.6g} s and Courant number {:g} to t = {:.6g} s\n",
+               numerics.time_step, numerics.courant, numerics.end_time);
+  else
+    fmt::print("{} steps of {:.6g} s to t = {:.6g} s\n", TimeSteps(numerics).count(),
+               TimeSteps(numerics).next(0, 0), numerics.end_time);
   std::fflush(stdout);
 }
 
@@ -173,7 +183,7 @@ void print_balances(const GasSolver& gas, bool prints) {
 }
 
 /// Collective; the slowest rank counts.
-void print_times(Seconds seconds, const GasSolver& gas, bool prints) {
+void print_times(Seconds seconds, const GasSolver& gas, long steps, bool prints) {
   MPI_Allreduce(MPI_IN_PLACE, &seconds, 3, MPI_DOUBLE, MPI_MAX, gas.mesh().comm);
   if (!prints)
     return;
@@ -184,39 +194,100 @@ void print_times(Seconds seconds, const GasSolver& gas, bool prints) {
         std::pair{"output", seconds.output}, std::pair{"total", total}})
     fmt::print("{:<24} {:>10.3f} {:>6.1f}%\n", name, value, 100 * value / total);
   fmt::print("{:<24} {:>10.1f} ns per cell and step\n", "gas",
-             1e9 * seconds.gas / (double(cells_of(gas.mesh())) * double(gas.steps())));
+             1e9 * seconds.gas / (double(cells_of(gas.mesh())) * double(steps)));
 }
+
+std::atomic<int> stop_signal{0};
+extern "C" void ask_to_stop(int signal) {
+  stop_signal = signal;
+}
+
+/// True on all ranks alike once one of them was asked to stop.
+bool stop_asked(MPI_Comm comm) {
+  int asked = stop_signal;
+  MPI_Allreduce(MPI_IN_PLACE, &asked, 1, MPI_INT, MPI_MAX, comm);
+  return asked != 0;
+}
+
+/// Writes the file that a run continues from, now and then and at the end.
+class Checkpoints {
+public:
+  explicit Checkpoints(const Output& output)
+      : path_(output.checkpoint), every_(output.checkpoint_every) {}
+  void start(double time) { next_ = time + every_; }
+  void write_if_due(const GasSolver& gas, bool at_end, const TimeSteps& steps, long files) {
+    if (path_.empty() || !(at_end || (every_ > 0 && gas.time() >= next_ * (1 - 1e-12))))
+      return;
+    write_checkpoint(path_, gas, {steps.last(), double(files)});
+    while (every_ > 0 && next_ <= gas.time())
+      next_ += every_;
+  }
+
+private:
+  std::string path_;
+  double every_, next_ = 0;
+};
 
 void run(const Options& options, MPI_Comm comm, bool prints) {
   Seconds seconds;
   const std::string& file = options.case_file;
   const GasCase gas_case = read_gas_case(file, comm);
-  const long steps = count_steps(gas_case.numerics, file);
-  const double dt = gas_case.numerics.end_time / double(steps);
+  check_times(gas_case.numerics, file);
 
   const Mesh mesh = timed(
       seconds.set_up, [&] { return naming_file(file, [&] { return make_mesh(gas_case, comm); }); });
   if (prints)
-    print_banner(mesh, gas_case, file, steps);
+    print_banner(mesh, gas_case, file);
   naming_file(file, [&] { report_quality(mesh, prints); });
-  FieldOutput output = naming_file(file, [&] { return FieldOutput(mesh, gas_case.output); });
   const BlockFields void_fraction = make_fields(mesh, 1.0);
   std::optional<GasSolver> gas;
+  TimeSteps steps(gas_case.numerics);
+  long files = 0;
   timed(seconds.set_up, [&] {
     naming_file(file, [&] { gas.emplace(mesh, gas_case); });
     gas->initialise(void_fraction, gas_case.initial_velocity);
+    if (options.restart.empty())
+      return;
+    const std::vector<double> state = read_checkpoint(options.restart, *gas);
+    steps.continue_from(state.at(0));
+    files = long(state.at(1));
+    if (prints)
+      fmt::print("continues at t = {:.6g} s, step {}\n\n", gas->time(), gas->steps());
+    if (steps.at_end(gas->time()))
+      throw ConfigError(fmt::format("{}: [numerics] end_time = {}: the checkpoint {} is already "
+                                    "there; give a later one (s)",
+                                    file, gas_case.numerics.end_time, options.restart));
   });
+  FieldOutput output = naming_file(file, [&] { return FieldOutput(mesh, gas_case.output, files); });
+  if (options.restart.empty())
+    timed(seconds.output, [&] { output.write_if_due(*gas, false); });
+  else
+    output.skip_to(gas->time());
+  Checkpoints checkpoints(gas_case.output);
+  checkpoints.start(gas->time());
 
-  timed(seconds.output, [&] { output.write_if_due(*gas, false); });
-  Progress progress(steps, prints);
-  for (long step = 1; step <= steps; ++step) {
-    const StepReport report =
-        timed(seconds.gas, [&] { return gas->advance(dt, void_fraction, nullptr); });
-    timed(seconds.output, [&] { output.write_if_due(*gas, step == steps); });
-    progress.report(step, gas->time(), report);
+  const long first = gas->steps();
+  Progress progress(gas->time(), gas_case.numerics.end_time, prints);
+  for (bool done = false; !done;) {
+    const double rate = gas_case.numerics.courant > 0 ? gas->courant_rate() : 0;
+    const StepReport report = timed(seconds.gas, [&] {
+      return gas->advance(steps.next(gas->time(), rate), void_fraction, nullptr);
+    });
+    done = steps.at_end(gas->time());
+    const bool stopped = !done && stop_asked(comm);
+    timed(seconds.output, [&] {
+      output.write_if_due(*gas, done);
+      checkpoints.write_if_due(*gas, done || stopped, steps, output.files());
+    });
+    progress.report(gas->steps(), gas->time(), report);
+    if (stopped) {
+      if (prints)
+        fmt::print("\nstopped by a signal at t = {:.6g} s\n", gas->time());
+      break;
+    }
   }
   print_balances(*gas, prints);
-  print_times(seconds, *gas, prints);
+  print_times(seconds, *gas, gas->steps() - first, prints);
   if (prints && output.files() > 0)
     fmt::print("\n{} files, the last {}\n", output.files(), output.last());
 }
@@ -226,6 +297,8 @@ std::optional<int> parse(int argc, char** argv, Options& options, bool prints) {
   CLI::App app{"Runs the gas of a GranFlux case file alone. Start it under mpirun for several "
                "ranks."};
   app.add_option("case", options.case_file, "case file (TOML)")->required();
+  app.add_option("--restart", options.restart,
+                 "continue from this checkpoint ([output] checkpoint)");
   app.add_option("--threads", options.threads,
                  "OpenMP threads of each rank (default: OMP_NUM_THREADS, else 1)")
       ->check(CLI::Range(1, 1024));
@@ -252,6 +325,8 @@ void set_threads(int threads) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
   int provided = 0, rank = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -24,44 +24,46 @@ inline std::string spoken_duration(double seconds) {
 /// Prints the course of a run: about twenty lines, and more where steps take long.
 class Progress {
 public:
-  Progress(long steps, bool prints) : steps_(steps), prints_(prints) {
+  /// `start`, `end`: simulated time of the run [s].
+  Progress(double start, double end, bool prints) : start_(start), end_(end), prints_(prints) {
     if (prints_)
       fmt::print("{:>10} {:>12} {:>6} {:>9} {:>12} {:>9} {:>9}  {}\n", "step", "time [s]", "done",
                  "Courant", "continuity", "pressure", "viscous", "remaining");
   }
 
-  /// After `step` of the steps. Continuity is the residual over its scale; pressure and viscous
-  /// are iterations, 0 for a direct solve.
+  /// After a step. Continuity is the residual over its scale; pressure and viscous are iterations,
+  /// 0 for a direct solve.
   void report(long step, double time, const StepReport& report) {
-    if (!prints_ || !due(step))
+    const double done = (time - start_) / (end_ - start_);
+    if (!prints_ || !due(done, time >= end_))
       return;
-    const double elapsed = seconds_since(start_);
     const double scale = report.continuity_scale > 0 ? report.continuity_scale : 1;
     fmt::print("{:>10} {:>12.6g} {:>5.1f}% {:>9.3g} {:>12.3e} {:>9} {:>9}  {}\n", step, time,
-               100.0 * double(step) / double(steps_), report.courant,
-               report.continuity_residual / scale, report.pressure_iterations,
-               report.viscous_iterations,
-               spoken_duration(elapsed / double(step) * double(steps_ - step)));
+               100 * done, report.courant, report.continuity_residual / scale,
+               report.pressure_iterations, report.viscous_iterations,
+               spoken_duration(seconds_since(started_) * (1 - done) / done));
     std::fflush(stdout);
     last_line_ = Clock::now();
+    printed_ = done;
   }
 
 private:
   using Clock = std::chrono::steady_clock;
-  static constexpr long lines = 20;
+  static constexpr double lines = 20;
   static constexpr double longest_silence = 30; // s
 
   static double seconds_since(Clock::time_point then) {
     return std::chrono::duration<double>(Clock::now() - then).count();
   }
-  [[nodiscard]] bool due(long step) const {
-    return step == 1 || step == steps_ || step * lines / steps_ != (step - 1) * lines / steps_ ||
+  [[nodiscard]] bool due(double done, bool last) const {
+    return printed_ < 0 || last || int(done * lines) != int(printed_ * lines) ||
            seconds_since(last_line_) > longest_silence;
   }
 
-  long steps_;
+  double start_, end_;
   bool prints_;
-  Clock::time_point start_ = Clock::now(), last_line_ = start_;
+  double printed_ = -1; ///< share that was done when the last line was printed; none yet: -1
+  Clock::time_point started_ = Clock::now(), last_line_ = started_;
 };
 
 } // namespace granflux::cfd

@@ -19,7 +19,7 @@ void GasSolver::Impl::set_conductance() {
         if (!eddy_viscosity.empty())
           viscosity += on_face(eddy_viscosity[b], block.weight[d], f, s);
         conductance[b][d][f] =
-            viscosity * block.conductance[d][f] * on_face(eps_middle[b], block.weight[d], f, s);
+            viscosity * block.conductance[d][f] * on_face(eps_start[b], block.weight[d], f, s);
       });
     }
   }
@@ -45,7 +45,7 @@ double GasSolver::Impl::viscous_force(std::size_t m,
         },
         face_work, out);
   if (!eddy_viscosity.empty())
-    add_transposed_stress(mesh, eddy_viscosity, eps_middle, velocity_gradient, boundaries, m,
+    add_transposed_stress(mesh, eddy_viscosity, eps_start, velocity_gradient, boundaries, m,
                           face_work, out);
   return force;
 }

@@ -20,7 +20,7 @@ void GasSolver::Impl::add_thermal_buoyancy() {
     const Block& block = mesh.local[b];
     const Field& temperature = energy->temperature()[b];
     const auto lift = [&](std::ptrdiff_t c) {
-      return eps_middle[b][c] * (temperature[c] - properties.reference_temperature);
+      return eps_start[b][c] * (temperature[c] - properties.reference_temperature);
     };
     for_cells(block.layout, [&](std::ptrdiff_t c) {
       for (std::size_t m = 0; m < 3; ++m)
@@ -56,7 +56,7 @@ void GasSolver::Impl::begin_momentum(double dt, const MomentumExchange* exchange
       });
     for_cells(block.layout, [&](std::ptrdiff_t c) { a[b][c] = rho_dt * eps_inertia[b][c]; });
     if (!exchange) {
-      share[b] = eps_middle[b];
+      share[b] = eps_start[b];
     } else {
       share[b] = exchange->pressure_fraction[b];
       for_cells(block.layout, [&](std::ptrdiff_t c) {

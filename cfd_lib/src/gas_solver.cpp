@@ -33,13 +33,13 @@ GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
       diffusion_solver(m, halo),
       pressure_solver(make_pressure_solver(c.numerics.pressure_solver, m, !boundaries.has_outlet(),
                                            c.numerics.pressure_tolerance)),
-      eps(make_fields(m, 1)), eps_middle(make_fields(m, 1)), eps_inertia(make_fields(m, 1)),
-      eps_rate(make_fields(m)), eps_rate_old(make_fields(m)), u(make_vectors(m)), p(make_fields(m)),
-      grad_p(make_vectors(m)), drag_slope(make_vectors(m)), flux(make_faces(m)),
-      convection(make_vectors(m)), convection_old(make_vectors(m)), friction(make_vectors(m)),
-      a(make_fields(m)), r(make_vectors(m)), share(make_fields(m, 1)), inertia(make_fields(m)),
-      defect(make_fields(m)), spread(make_fields(m)), face_work(make_faces(m)),
-      conductance(make_faces(m)) {
+      eps(make_fields(m, 1)), eps_start(make_fields(m, 1)), eps_middle(make_fields(m, 1)),
+      eps_inertia(make_fields(m, 1)), eps_rate(make_fields(m)), eps_rate_old(make_fields(m)),
+      u(make_vectors(m)), p(make_fields(m)), grad_p(make_vectors(m)), drag_slope(make_vectors(m)),
+      flux(make_faces(m)), convection(make_vectors(m)), convection_old(make_vectors(m)),
+      friction(make_vectors(m)), a(make_fields(m)), r(make_vectors(m)), share(make_fields(m, 1)),
+      inertia(make_fields(m)), defect(make_fields(m)), spread(make_fields(m)),
+      face_work(make_faces(m)), conductance(make_faces(m)) {
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     system.coefficient.push_back(
         {Field(mesh.local[b].layout), Field(mesh.local[b].layout), Field(mesh.local[b].layout)});
@@ -104,7 +104,8 @@ template <class Visit> void GasSolver::Impl::visit_state(Visit&& visit) {
   for (BlockFields* fields : {&eps, &eps_middle, &eps_inertia, &eps_rate, &eps_rate_old, &p})
     for (Field& field : *fields)
       visit(field.data(), field.size());
-  for (BlockVectors* vectors : {&u, &grad_p, &drag_slope, &convection, &convection_old})
+  for (BlockVectors* vectors :
+       {&u, &grad_p, &drag_slope, &convection, &convection_old, &pressure_slope})
     for (VectorField& vector : *vectors)
       for (Field& field : vector)
         visit(field.data(), field.size());
@@ -177,17 +178,17 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
       for_cells(s.mesh.local[b].layout, [&](std::ptrdiff_t c) {
         s.r[b][m][c] = s.fluid.density / dt * s.eps_inertia[b][c] * s.u[b][m][c];
       });
-  const BlockFields eps_start = s.eps;
+  s.eps_start = s.eps;
   if (!s.implicit)
     s.move_inertia(dt, s.ab_now, s.eps_rate_old, s.ab_old);
   if (s.energy)
-    s.energy->begin(s.eps);
+    s.energy->begin(s.eps_start);
   std::swap(s.eps_rate, s.eps_rate_old);
   s.eps_rate_noise = 1e-13 / dt;
   for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
     for_cells(s.mesh.local[b].layout, [&](std::ptrdiff_t c) {
-      s.eps_rate[b][c] = (void_fraction[b][c] - s.eps[b][c]) / dt;
-      s.eps_middle[b][c] = 0.5 * (void_fraction[b][c] + s.eps[b][c]);
+      s.eps_rate[b][c] = (void_fraction[b][c] - s.eps_start[b][c]) / dt;
+      s.eps_middle[b][c] = 0.5 * (void_fraction[b][c] + s.eps_start[b][c]);
       s.eps[b][c] = void_fraction[b][c];
     });
   if (s.implicit)
@@ -197,12 +198,13 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   MPI_Allreduce(MPI_IN_PLACE, &lightest, 1, MPI_DOUBLE, MPI_MAX, s.mesh.comm);
   if (lightest >= 0) {
     report.history_restarted = true;
-    s.eps_inertia = eps_start;
+    s.eps_inertia = s.eps_start;
     if (!s.implicit)
       s.ab_now = 1, s.ab_old = 0;
   }
-  s.halo.exchange({&s.eps_middle});
+  s.halo.exchange({&s.eps_middle, &s.eps_start});
   s.boundaries.fill_zero_gradient(s.eps_middle);
+  s.boundaries.fill_zero_gradient(s.eps_start);
   s.set_conductance();
   s.add_thermal_buoyancy();
 
@@ -348,6 +350,12 @@ Vec3 GasSolver::boundary_force(const std::string& boundary) const {
         return std::array<double, 3>{force.x, force.y, force.z};
       });
   return {x, y, z};
+}
+
+double GasSolver::courant_rate() const {
+  StepReport report;
+  impl_->measure(1, report);
+  return report.courant;
 }
 
 std::vector<double> GasSolver::save() const {

@@ -100,6 +100,7 @@ struct GasSolver::Impl {
   double ab_now = 1, ab_old = 0; ///< Adams-Bashforth weights of this step
 
   BlockFields eps;         ///< end of the last step
+  BlockFields eps_start;   ///< start of the present step, where the momentum equation is centred
   BlockFields eps_middle;  ///< mean over the present step
   BlockFields eps_inertia; ///< carried by the convecting fluxes: what holds the gas's momentum
   BlockFields eps_rate, eps_rate_old; ///< d eps/dt that the last two fluxes satisfy [1/s]

@@ -22,6 +22,7 @@ Fluid read_fluid(const CaseTable& table, const GridDescription& grid) {
   fluid.gravity = table.vector("gravity", Vec3{}, any_number, "m/s2");
   fluid.driving_pressure_gradient =
       table.vector("driving_pressure_gradient", Vec3{}, any_number, "Pa/m");
+  fluid.smagorinsky = table.number("smagorinsky", 0.0, zero_to_one, "");
   const auto* box = std::get_if<BoxGrid>(&grid); // of others make_mesh knows which way they close
   for (int d = 0; d < 3; ++d)
     if (fluid.driving_pressure_gradient[d] != 0 && box && !box->periodic[std::size_t(d)])
@@ -98,12 +99,19 @@ void read_wall(const CaseTable& table, const std::optional<Side>& side,
   if (side && condition.velocity[side->direction] != 0)
     table.fail("velocity", std::string("0 along ") + axis_names[std::size_t(side->direction)] +
                                ": a wall moves in its own plane only (m/s)");
+  condition.angular_velocity = table.vector("angular_velocity", Vec3{}, any_number, "rad/s");
+  if (condition.angular_velocity == Vec3{})
+    table.refuse("centre", "it needs an angular_velocity");
+  condition.centre = table.vector("centre", Vec3{}, any_number, "m");
 }
 
 void refuse_keys_of_others(const CaseTable& table, BoundaryKind kind) {
   const bool inlet = kind == BoundaryKind::inlet;
   if (!inlet && kind != BoundaryKind::wall)
     table.refuse("velocity", "only an inlet or a wall has a velocity");
+  if (kind != BoundaryKind::wall)
+    for (const char* key : {"angular_velocity", "centre"})
+      table.refuse(key, "only a wall turns");
   if (!inlet)
     for (const char* key : {"profile", "ramp_time", "ramp_from"})
       table.refuse(key, std::string("only an inlet has a ") + key);
@@ -117,7 +125,8 @@ BoundaryCondition read_condition(const CaseTable& table, const BoundaryPlace& pl
   condition.kind = table.choice<BoundaryKind>("type", {{"inlet", BoundaryKind::inlet},
                                                        {"outlet", BoundaryKind::outlet},
                                                        {"wall", BoundaryKind::wall},
-                                                       {"slip", BoundaryKind::slip}});
+                                                       {"slip", BoundaryKind::slip},
+                                                       {"symmetry", BoundaryKind::slip}});
   refuse_keys_of_others(table, condition.kind);
   if (condition.kind == BoundaryKind::inlet)
     read_inlet(table, place.side, condition);
@@ -156,6 +165,12 @@ Numerics read_numerics(const CaseTable& table) {
   numerics.time_scheme = table.choice<TimeScheme>(
       "time_scheme", numerics.time_scheme,
       {{"semi_implicit", TimeScheme::semi_implicit}, {"implicit", TimeScheme::implicit}});
+  if (numerics.time_scheme != TimeScheme::implicit)
+    table.refuse("implicit_tolerance", "it needs time_scheme = \"implicit\"");
+  numerics.implicit_tolerance = table.number("implicit_tolerance", numerics.implicit_tolerance,
+                                             {.low = 1e-14, .high = 1e-2}, "");
+  numerics.pressure_corrections =
+      table.integer("pressure_corrections", numerics.pressure_corrections, 0, 100);
   numerics.pressure_solver =
       table.choice<PressureMethod>("pressure_solver", numerics.pressure_solver,
                                    {{"auto", PressureMethod::automatic},
@@ -168,6 +183,7 @@ Numerics read_numerics(const CaseTable& table) {
   numerics.viscous_tolerance =
       table.number("viscous_tolerance", numerics.viscous_tolerance, tolerance, "");
   numerics.time_step = table.number("time_step", numerics.time_step, positive, "s");
+  numerics.courant = table.number("courant", numerics.courant, positive, "");
   numerics.end_time = table.number("end_time", numerics.end_time, positive, "s");
   return numerics;
 }
@@ -179,6 +195,10 @@ Output read_output(const CaseTable& table) {
     table.refuse("every", "it needs fields, the path of the files to write");
   else
     output.every = table.number("every", positive, "s");
+  output.checkpoint = table.text("checkpoint", "");
+  if (output.checkpoint.empty())
+    table.refuse("checkpoint_every", "it needs checkpoint, the path of the file to write");
+  output.checkpoint_every = table.number("checkpoint_every", 0.0, positive, "s");
   return output;
 }
 

@@ -96,7 +96,7 @@ const std::vector<Mistake> mistakes{
      "bed.toml: [[boundary]] 1 \"bottom\" to = [0, 1, 0]: must be not below `from` along x"},
     {"type = \"outlet\"", "type = \"outlt\"",
      "bed.toml: [[boundary]] 2 \"top\" type = \"outlt\": must be one of \"inlet\", \"outlet\", "
-     "\"wall\", \"slip\"; did you mean outlet?"},
+     "\"wall\", \"slip\", \"symmetry\"; did you mean outlet?"},
     {"type = \"outlet\"\npressure = 5.0", "type = \"wall\"",
      "bed.toml: [[boundary]] \"bottom\" is an inlet, but no [[boundary]] has type = \"outlet\": "
      "the gas could not leave"},

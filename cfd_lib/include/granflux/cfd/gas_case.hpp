@@ -87,8 +87,10 @@ struct Numerics {
 };
 
 struct Output {
-  std::string fields; ///< path of the CGNS files without ending; empty: none
-  double every = 0;   ///< s of simulated time between two of them
+  std::string fields;          ///< path of the CGNS files without ending; empty: none
+  double every = 0;            ///< s of simulated time between two of them
+  std::string checkpoint;      ///< path of the file that a run can be continued from; empty: none
+  double checkpoint_every = 0; ///< s of simulated time; 0: at the end only
 };
 
 /// All that defines a gas run. Plain data; read_gas_case fills it from a TOML file.

@@ -110,6 +110,9 @@ public:
   /// name that the gas has no boundary of.
   [[nodiscard]] Vec3 boundary_force(const std::string& boundary) const;
 
+  /// Largest Courant number per time of the flow as it is [1/s]. Collective.
+  [[nodiscard]] double courant_rate() const;
+
   /// The solver's whole state of this rank's blocks, for a restart that continues bit for bit on
   /// the same blocks; load throws ConfigError if the size does not fit.
   [[nodiscard]] std::vector<double> save() const;
