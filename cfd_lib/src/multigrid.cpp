@@ -48,8 +48,8 @@ bool is_centred(const DiagonalRange& range, double scale) {
 } // namespace
 
 struct Multigrid::Impl {
-  Impl(const Mesh& mesh, bool singular) {
-    levels.push_back(std::make_unique<Level>(mesh));
+  Impl(const Mesh& mesh, bool singular) : smoothing(smoothing_for(mesh)) {
+    levels.push_back(std::make_unique<Level>(mesh, smoothing));
     Coarsening coarsening(mesh);
     for (;;) {
       Level& fine = *levels.back();
@@ -95,6 +95,7 @@ struct Multigrid::Impl {
   /// Takes them from the system, times scale; throws where a diagonal is not a positive number.
   DiagonalRange take(const PressureSystem& system);
 
+  Smoothing smoothing;
   std::vector<std::unique_ptr<Mesh>> meshes; ///< of the coarse levels
   std::vector<std::unique_ptr<Level>> levels;
   std::unique_ptr<CoarsestSolver> coarsest;

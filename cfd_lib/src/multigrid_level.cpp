@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multigrid_level.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace granflux::cfd {
@@ -13,6 +16,66 @@ constexpr std::size_t u(int i) {
 }
 
 } // namespace
+
+Smoothing::Smoothing(int count, double share_left) : steps(std::size_t(count) + 1) {
+  constexpr double high = 2;
+  const double low = high * share_left, centre = (high + low) / 2, half_width = (high - low) / 2;
+  const double sigma = centre / half_width;
+  double rho = 1 / sigma;
+  steps[1] = {0, float(1 / centre)};
+  for (std::size_t n = 2; n < steps.size(); ++n) {
+    const double rho_new = 1 / (2 * sigma - rho);
+    steps[n] = {float(rho_new * rho), float(2 * rho_new / half_width)};
+    rho = rho_new;
+  }
+}
+
+namespace {
+
+/// How much the ratio of a cell's conductances along two directions varies over the mesh: the
+/// largest over the smallest.
+double spread_of_ratios(const Mesh& mesh) {
+  constexpr std::array<std::array<std::size_t, 2>, 3> pairs{{{0, 1}, {0, 2}, {1, 2}}};
+  // Of the logarithms: the largest ratio of each pair of directions, the largest inverse ratio.
+  std::array<double, 2 * pairs.size()> most;
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (const Block& block : mesh.local) {
+    const Layout& layout = block.layout;
+    for (int k = 0; k < layout.cells[2]; ++k)
+      for (int j = 0; j < layout.cells[1]; ++j)
+        for (int i = 0; i < layout.cells[0]; ++i) {
+          const std::ptrdiff_t c = layout.at(i, j, k);
+          std::array<double, 3> along{}; // mean of a cell's two faces
+          for (std::size_t d = 0; d < 3; ++d)
+            along[d] = block.conductance[d][c] + block.conductance[d][c + layout.stride[d]];
+          for (std::size_t p = 0; p < pairs.size(); ++p) {
+            const auto [d, e] = pairs[p];
+            if (layout.cells[d] == 1 || layout.cells[e] == 1 || !(along[d] > 0 && along[e] > 0))
+              continue; // nothing varies along a direction of one cell
+            const double ratio = std::log(along[d] / along[e]);
+            most[2 * p] = std::max(most[2 * p], ratio);
+            most[2 * p + 1] = std::max(most[2 * p + 1], -ratio);
+          }
+        }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), int(most.size()), MPI_DOUBLE, MPI_MAX, mesh.comm);
+  double spread = 0;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    spread = std::max(spread, most[2 * p] + most[2 * p + 1]);
+  return std::exp(spread);
+}
+
+} // namespace
+
+Smoothing smoothing_for(const Mesh& finest) {
+  // All leave about 1/12 of what they damp.
+  const double spread = spread_of_ratios(finest);
+  if (spread < 4)
+    return {3, 1.0 / 4};
+  if (spread < 100)
+    return {6, 1.0 / 16};
+  return {8, 1.0 / 24};
+}
 
 LevelBlock::LevelBlock(Index3 cells, int outer_direction)
     : layout(cells), coefficient{FloatField(layout.size), FloatField(layout.size),
@@ -50,13 +113,14 @@ std::vector<LevelBlock> make_blocks(const Mesh& mesh, const Level& finer) {
 
 } // namespace
 
-Level::Level(const Mesh& m, std::vector<LevelBlock> b)
+Level::Level(const Mesh& m, std::vector<LevelBlock> b, const Smoothing& how)
     : mesh(m), linked(is_linked(m)),
       halo(m, 1, [&](std::size_t block, const Index3& cell) { return b[block].layout.at(cell); }),
-      blocks(std::move(b)), exchanged_(blocks.size()) {}
+      blocks(std::move(b)), smoothing(how), exchanged_(blocks.size()) {}
 
-Level::Level(const Mesh& finest) : Level(finest, make_blocks(finest)) {}
-Level::Level(const Mesh& m, const Level& finer) : Level(m, make_blocks(m, finer)) {}
+Level::Level(const Mesh& finest, const Smoothing& how) : Level(finest, make_blocks(finest), how) {}
+Level::Level(const Mesh& m, const Level& finer)
+    : Level(m, make_blocks(m, finer), finer.smoothing) {}
 
 void Level::exchange(FloatField LevelBlock::*field) {
   if (!linked)

@@ -12,6 +12,27 @@
 
 namespace granflux::cfd {
 
+/// Chebyshev iteration for A x = rhs, A scaled by its diagonal. It damps the part of the spectrum
+/// above a share of its upper bound, which is 2 for any matrix of this kind (Gershgorin); what lies
+/// below is for the coarse levels. Saad, Iterative Methods for Sparse Linear Systems, 2nd ed.,
+/// algorithm 12.1.
+struct Smoothing {
+  /// Step n, from 1: x + keep (x - x_before) + gain (rhs - A x) / diagonal.
+  struct Step {
+    float keep, gain;
+  };
+
+  Smoothing(int steps, double share_left_to_coarse_levels);
+  [[nodiscard]] int count() const { return int(steps.size()) - 1; }
+
+  std::vector<Step> steps; ///< entry 0 is not used
+};
+
+/// Cells join along the same directions in a whole block. Where they are coupled more strongly
+/// along one direction here and along another there, as in cells stretched towards a wall, error
+/// that varies along the weak one is left to the smoother: it must reach further down.
+Smoothing smoothing_for(const Mesh& finest);
+
 /// What one block holds on one level of the multigrid solver.
 struct LevelBlock {
   LevelBlock(Index3 cells, int outer);
@@ -40,13 +61,14 @@ struct LinkFactor {
 };
 
 struct Level {
-  explicit Level(const Mesh& finest);
+  Level(const Mesh& finest, const Smoothing& how);
   Level(const Mesh& m, const Level& finer);
 
   const Mesh& mesh;
   bool linked; ///< whether cells of any rank have neighbours in other blocks, or across a period
   Halo halo;
   std::vector<LevelBlock> blocks; ///< as Mesh::local
+  const Smoothing& smoothing;
 
   // Towards the next coarser level.
   Pairings pairings; ///< of all blocks
@@ -57,7 +79,7 @@ struct Level {
   void exchange(FloatField LevelBlock::*field);
 
 private:
-  Level(const Mesh& m, std::vector<LevelBlock> b);
+  Level(const Mesh& m, std::vector<LevelBlock> b, const Smoothing& how);
 
   std::vector<float*> exchanged_; ///< kept, so that nothing is allocated in a loop
 };

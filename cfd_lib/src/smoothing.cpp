@@ -15,35 +15,6 @@ namespace granflux::cfd {
 
 namespace {
 
-/// Smoothing damps the part of the spectrum of A over its diagonal above a quarter of its upper
-/// bound, which is 2 for any matrix of this kind (Gershgorin); what lies below is for the coarse
-/// levels. Three steps leave 1/13 of it. Saad, Iterative Methods for Sparse Linear Systems,
-/// 2nd ed., algorithm 12.1.
-constexpr int smoothing_steps = 3;
-constexpr double spectrum_high = 2, spectrum_low = spectrum_high / 4;
-constexpr double spectrum_centre = (spectrum_high + spectrum_low) / 2;
-constexpr double spectrum_half_width = (spectrum_high - spectrum_low) / 2;
-constexpr float first_gain = float(1 / spectrum_centre);
-
-/// Step n of the iteration, from 1: x + keep (x - x_before) + gain (rhs - A x) / diagonal.
-struct Step {
-  float keep, gain;
-};
-
-constexpr std::array<Step, smoothing_steps + 1> make_steps() {
-  std::array<Step, smoothing_steps + 1> steps{};
-  constexpr double sigma = spectrum_centre / spectrum_half_width;
-  double rho = 1 / sigma;
-  steps[1] = {0, first_gain};
-  for (std::size_t n = 2; n < steps.size(); ++n) {
-    const double rho_new = 1 / (2 * sigma - rho);
-    steps[n] = {float(rho_new * rho), float(2 * rho_new / spectrum_half_width)};
-    rho = rho_new;
-  }
-  return steps;
-}
-constexpr std::array<Step, smoothing_steps + 1> steps = make_steps();
-
 constexpr std::size_t u(int i) {
   return std::size_t(i);
 }
@@ -72,9 +43,9 @@ template <class Value> struct Plane {
 
 /// A block as planes of rows, and how its cells join.
 struct Sweep {
-  Sweep(const LevelBlock& block, const std::array<Pairing, 3>* pairing)
-      : b(block), n(block.layout.cells[0]), n_inner(block.layout.cells[u(block.inner)]),
-        n_outer(block.layout.cells[u(block.outer)]) {
+  Sweep(const Level& level, const LevelBlock& block, const std::array<Pairing, 3>* pairing)
+      : b(block), steps(level.smoothing), n(block.layout.cells[0]),
+        n_inner(block.layout.cells[u(block.inner)]), n_outer(block.layout.cells[u(block.outer)]) {
     if (pairing)
       along_row = (*pairing)[0], inner = (*pairing)[u(block.inner)],
       outer = (*pairing)[u(block.outer)];
@@ -102,6 +73,7 @@ struct Sweep {
   }
 
   const LevelBlock& b;
+  const Smoothing& steps;
   int n, n_inner, n_outer;
   Pairing along_row, inner, outer;
 };
@@ -152,7 +124,7 @@ void spread(const float* coarse, int N, const Pairing& pairing, const float* x, 
 /// rhs . next where that is asked for.
 template <bool has_before, bool has_product>
 double step_row(const RowOperator& a, const float* rhs, const float* inverse, const float* before,
-                float* next, int n, const Step& step) {
+                float* next, int n, const Smoothing::Step& step) {
   const auto [keep, gain] = step;
   double product = 0;
 #pragma omp simd reduction(+ : product)
@@ -169,10 +141,10 @@ double step_row(const RowOperator& a, const float* rhs, const float* inverse, co
 }
 
 /// The first step from zero: no neighbours.
-void first_row(const float* rhs, const float* inverse, float* next, int n) {
+void first_row(const float* rhs, const float* inverse, float* next, int n, float gain) {
 #pragma omp simd
   for (std::ptrdiff_t i = 0; i < n; ++i)
-    next[i] = first_gain * inverse[i] * rhs[i];
+    next[i] = gain * inverse[i] * rhs[i];
 }
 
 /// x of a plane and what the coarse plane adds.
@@ -187,7 +159,7 @@ void correct_plane(const Sweep& s, const LevelBlock& coarse, int k, const Plane<
 void first_plane(const Sweep& s, int k, const Plane<float>& to) {
   const auto rhs = s.plane(s.b.rhs.data(), k), inverse = s.plane(s.b.inverse_diagonal.data(), k);
   for (int j = 0; j < s.n_inner; ++j)
-    first_row(rhs.row(j), inverse.row(j), to.row(j), s.n);
+    first_row(rhs.row(j), inverse.row(j), to.row(j), s.n, s.steps.steps[1].gain);
 }
 
 /// Step n of a plane. `before` has no rows where it is zero, or not needed; `products`, for the
@@ -196,7 +168,7 @@ void step_plane(const Sweep& s, int n, int k, const Plane<const float>& x,
                 const Plane<const float>& low, const Plane<const float>& high,
                 const Plane<const float>& before, const Plane<float>& to, double* products) {
   const auto rhs = s.plane(s.b.rhs.data(), k), inverse = s.plane(s.b.inverse_diagonal.data(), k);
-  const Step& step = steps[u(n)];
+  const Smoothing::Step& step = s.steps.steps[u(n)];
   for (int j = 0; j < s.n_inner; ++j) {
     const RowOperator a = s.row_operator(x, low, high, j, k);
     if (products)
@@ -235,23 +207,21 @@ void restrict_plane(const Sweep& s, LevelBlock& coarse, int k, const Plane<const
 class Window {
 public:
   static constexpr int depth = 3;
-  static std::size_t size(const LevelBlock& b) {
-    return std::size_t(depth * (smoothing_steps + 1) + 1) * plane_size(b) +
-           std::size_t(row_size(b));
+  static std::size_t size(const LevelBlock& b, const Smoothing& steps) {
+    return std::size_t(depth * (steps.count() + 1) + 1) * plane_size(b) + std::size_t(row_size(b));
   }
-  Window(const LevelBlock& b, float* memory)
-      : row_(row_size(b)), plane_(std::ptrdiff_t(plane_size(b))), memory_(memory),
+  Window(const LevelBlock& b, const Smoothing& steps, float* memory)
+      : row_(row_size(b)), plane_(std::ptrdiff_t(plane_size(b))), zeros_(memory),
+        planes_(memory + plane_), scratch_(memory + plane_ * (depth * (steps.count() + 1) + 1)),
         n_outer_(b.layout.cells[u(b.outer)]) {}
 
   /// Plane k of iterate n; zeros outside the block.
   [[nodiscard]] Plane<float> at(int n, int k) const {
     const bool inside = k >= 0 && k < n_outer_;
-    const int slot = inside ? depth * n + k % depth : depth * (smoothing_steps + 1);
-    return {memory_ + slot * plane_ + LevelLayout::line + row_, row_};
+    float* plane = inside ? planes_ + plane_ * (depth * n + k % depth) : zeros_;
+    return {plane + LevelLayout::line + row_, row_};
   }
-  [[nodiscard]] float* row() const {
-    return memory_ + (depth * (smoothing_steps + 1) + 1) * plane_;
-  }
+  [[nodiscard]] float* row() const { return scratch_; }
 
 private:
   static std::ptrdiff_t row_size(const LevelBlock& b) { return b.layout.stride[1]; }
@@ -259,7 +229,7 @@ private:
     return std::size_t(row_size(b) * (b.layout.cells[u(b.inner)] + 2) + 2 * LevelLayout::line);
   }
   std::ptrdiff_t row_, plane_;
-  float* memory_;
+  float *zeros_, *planes_, *scratch_;
   int n_outer_;
 };
 
@@ -277,7 +247,7 @@ double* products_of(LevelBlock& b) {
 /// iterates between is computed here once more, so that slabs do not wait for each other.
 void sweep_slab(const Sweep& s, Start start, const LevelBlock* correction, LevelBlock* coarse,
                 LevelBlock& out, const Window& window, int begin, int end) {
-  const int last = smoothing_steps, first = start == Start::zero ? 1 : 0;
+  const int last = s.steps.count(), first = start == Start::zero ? 1 : 0;
   const int behind = coarse ? 1 : 0; // planes of the last iterate needed beyond the slab's
   const auto at = [&](int n, int k) {
     return n == 0 && start == Start::iterate ? s.plane(s.b.x.data(), k) : as_const(window.at(n, k));
@@ -323,17 +293,17 @@ void make_room(LevelBlock& b) {
 }
 
 /// That of this thread, touched first by it.
-float* own_room(LevelBlock& b) {
+float* own_room(LevelBlock& b, const Smoothing& steps) {
   FloatField& room = b.planes[u(omp_get_thread_num())];
   if (!room.data())
-    room = FloatField(Window::size(b));
+    room = FloatField(Window::size(b, steps));
   return room.data();
 }
 
 /// sweep_slab of a whole block, dealt to the threads.
-void sweep_block(LevelBlock& b, const std::array<Pairing, 3>& pairing, Start start,
-                 const LevelBlock* correction, LevelBlock* coarse) {
-  const Sweep s(b, &pairing);
+void sweep_block(const Level& level, LevelBlock& b, const std::array<Pairing, 3>& pairing,
+                 Start start, const LevelBlock* correction, LevelBlock* coarse) {
+  const Sweep s(level, b, &pairing);
   make_room(b);
   const int N = s.outer.coarse(s.n_outer - 1) + 1; // coarse planes: a slab begins where one does
 #pragma omp parallel if (b.layout.interior() >= smallest_parallel_sweep)
@@ -342,7 +312,8 @@ void sweep_block(LevelBlock& b, const std::array<Pairing, 3>& pairing, Start sta
     const int begin = s.outer.first(int(long(N) * thread / threads), s.n_outer);
     const int end = s.outer.first(int(long(N) * (thread + 1) / threads), s.n_outer);
     if (begin < end)
-      sweep_slab(s, start, correction, coarse, b, Window(b, own_room(b)), begin, end);
+      sweep_slab(s, start, correction, coarse, b, Window(b, s.steps, own_room(b, s.steps)), begin,
+                 end);
   }
   std::swap(b.x, b.spare);
 }
@@ -352,7 +323,7 @@ template <class Body> void for_planes(Level& level, Body&& body) {
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
     const Pairings& pairings = level.pairings;
-    const Sweep s(block, pairings.empty() ? nullptr : &pairings[u(level.mesh.local[b].id)]);
+    const Sweep s(level, block, pairings.empty() ? nullptr : &pairings[u(level.mesh.local[b].id)]);
 #pragma omp parallel for schedule(static) if (block.layout.interior() >= smallest_parallel_sweep)
     for (int k = 0; k < s.n_outer; ++k)
       body(s, b, k);
@@ -366,7 +337,7 @@ void smooth_by_steps(Level& level, Start start) {
       first_plane(s, k, s.plane(level.blocks[b].x.data(), k));
     });
   }
-  for (int n = start == Start::zero ? 2 : 1; n <= smoothing_steps; ++n) {
+  for (int n = start == Start::zero ? 2 : 1; n <= level.smoothing.count(); ++n) {
     level.exchange(&LevelBlock::x);
     const bool has_before = n > (start == Start::zero ? 2 : 1);
     for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
@@ -375,7 +346,8 @@ void smooth_by_steps(Level& level, Start start) {
       const Plane<float> next = s.plane(block.spare.data(), k);
       step_plane(s, n, k, x(k), x(k - 1), x(k + 1),
                  has_before ? as_const(next) : Plane<const float>{nullptr, 0}, next,
-                 n == smoothing_steps && start == Start::corrected ? products_of(block) : nullptr);
+                 n == level.smoothing.count() && start == Start::corrected ? products_of(block)
+                                                                           : nullptr);
     });
     for (LevelBlock& block : level.blocks)
       std::swap(block.x, block.spare);
@@ -387,7 +359,7 @@ void smooth_by_steps(Level& level, Start start) {
 void smooth_and_restrict(Level& level, Level& coarse, Start start) {
   if (!level.linked) {
     for (std::size_t b = 0; b < level.blocks.size(); ++b)
-      sweep_block(level.blocks[b], level.pairings[u(level.mesh.local[b].id)], start, nullptr,
+      sweep_block(level, level.blocks[b], level.pairings[u(level.mesh.local[b].id)], start, nullptr,
                   &coarse.blocks[b]);
     return;
   }
@@ -396,11 +368,11 @@ void smooth_and_restrict(Level& level, Level& coarse, Start start) {
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
     make_room(block);
-    const Sweep s(block, &level.pairings[u(level.mesh.local[b].id)]);
+    const Sweep s(level, block, &level.pairings[u(level.mesh.local[b].id)]);
     const int N = s.outer.coarse(s.n_outer - 1) + 1;
 #pragma omp parallel if (block.layout.interior() >= smallest_parallel_sweep)
     {
-      float* row = Window(block, own_room(block)).row();
+      float* row = Window(block, s.steps, own_room(block, s.steps)).row();
 #pragma omp for schedule(static)
       for (int K = 0; K < N; ++K)
         for (int k = s.outer.first(K, s.n_outer); k < s.outer.first(K + 1, s.n_outer); ++k) {
@@ -414,8 +386,8 @@ void smooth_and_restrict(Level& level, Level& coarse, Start start) {
 void correct_and_smooth(const Level& coarse, Level& level) {
   if (!level.linked) {
     for (std::size_t b = 0; b < level.blocks.size(); ++b)
-      sweep_block(level.blocks[b], level.pairings[u(level.mesh.local[b].id)], Start::corrected,
-                  &coarse.blocks[b], nullptr);
+      sweep_block(level, level.blocks[b], level.pairings[u(level.mesh.local[b].id)],
+                  Start::corrected, &coarse.blocks[b], nullptr);
     return;
   }
   for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
