@@ -154,9 +154,8 @@ void EnergyEquation::solve(const FaceFields& flux, FaceFields& work) {
       implicit_->set_operator(inertia_, conductance_, flux, capacity_);
       implicit_->solve(unknown, defect_, 0.1, 0.5 * enough);
     } else {
-      solver_.solve(unknown, inertia_, conductance_, defect_, scale,
-                    once ? numerics_.viscous_tolerance
-                         : std::max(numerics_.viscous_tolerance, 0.05 * size / scale));
+      solver_.set_operator(inertia_, conductance_);
+      solver_.solve(unknown, defect_, once ? enough : std::max(enough, 0.05 * size));
     }
     if (once)
       return;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/row_sweep.hpp>
 
 namespace granflux::cfd {
 
@@ -77,6 +78,7 @@ void GasSolver::Impl::predict(double new_time, StepReport& report) {
   // whole is made small in several passes.
   const bool once = mesh.orthogonal && eddy_viscosity.empty();
   std::array<double, 3> scale{};
+  diffusion_solver.set_operator(inertia, conductance);
   for (int pass = 0; pass < most_passes; ++pass) {
     if (pass > 0)
       halo.exchange(u);
@@ -84,40 +86,42 @@ void GasSolver::Impl::predict(double new_time, StepReport& report) {
     update_velocity_gradient();
     bool good = true;
     for (std::size_t m = 0; m < 3; ++m) {
-      viscous_force(m, [&](std::size_t b) -> Field& { return spread[b]; });
+      viscous_force(m, [&](std::size_t b) -> Field& { return defect[b]; });
       double sums[2] = {0, 0}; // squares: of the equation's terms, of its defect
       for (std::size_t b = 0; b < mesh.local.size(); ++b) {
-        const Field& volume = mesh.local[b].volume;
         const Layout& layout = mesh.local[b].layout;
-        for_cells(layout, [&](std::ptrdiff_t c) {
-          const double rhs = (r[b][m][c] - share[b][c] * grad_p[b][m][c]) * volume[c];
-          defect[b][c] = rhs - inertia[b][c] * u[b][m][c] + 0.5 * spread[b][c];
-        });
-        sums[0] += sum_cells(layout, [&](std::ptrdiff_t c) {
-          const double rhs = (r[b][m][c] - share[b][c] * grad_p[b][m][c]) * volume[c];
-          const double size = std::abs(rhs) + inertia[b][c] * std::abs(u[b][m][c]);
-          return size * size;
-        });
-        if (!once)
-          sums[1] +=
-              sum_cells(layout, [&](std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; });
+        const auto [terms, left] =
+            sum_rows<2>(layout, room,
+                        [v = u[b][m].data(), right = r[b][m].data(), chi = share[b].data(),
+                         grad = grad_p[b][m].data(), mass = inertia[b].data(), d = defect[b].data(),
+                         volume = mesh.local[b].volume.data(),
+                         n = layout.cells[0]](std::ptrdiff_t row, int, int) {
+                          double squares = 0, defects = 0;
+#pragma omp simd reduction(+ : squares, defects)
+                          for (std::ptrdiff_t c = row; c < row + n; ++c) {
+                            const double rhs = (right[c] - chi[c] * grad[c]) * volume[c];
+                            const double size = std::abs(rhs) + mass[c] * std::abs(v[c]);
+                            d[c] = rhs - mass[c] * v[c] + 0.5 * d[c];
+                            squares += size * size;
+                            defects += d[c] * d[c];
+                          }
+                          return std::array<double, 2>{squares, defects};
+                        });
+        sums[0] += terms, sums[1] += left;
       }
       MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
       if (!std::isfinite(sums[0]))
         check_finite(); // names the cell and throws
       if (pass == 0)
         scale[m] = std::sqrt(sums[0]);
-      if (scale[m] == 0)
-        continue;
-      const double size = std::sqrt(sums[1]) / scale[m];
-      if (!once && size <= numerics.viscous_tolerance)
+      const double enough = numerics.viscous_tolerance * scale[m], size = std::sqrt(sums[1]);
+      if (size <= enough)
         continue;
       good = false;
-      const double enough =
-          once ? numerics.viscous_tolerance : std::max(numerics.viscous_tolerance, 0.05 * size);
-      report.viscous_iterations = std::max(
-          report.viscous_iterations,
-          diffusion_solver.solve(component(m), inertia, conductance, defect, scale[m], enough));
+      report.viscous_iterations =
+          std::max(report.viscous_iterations,
+                   diffusion_solver.solve(component(m), defect,
+                                          once ? enough : std::max(enough, 0.05 * size)));
     }
     if (once || good)
       return;

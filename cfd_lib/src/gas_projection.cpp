@@ -153,8 +153,10 @@ void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchan
       }
       for_cells(block.layout, [&](std::ptrdiff_t c) { p[b][c] += increment[b][c]; });
     }
-    if (exchange)
+    if (exchange) {
       set_drag_slope(*exchange);
+      has_drag = true;
+    }
     set_pressure_gradient(drive);
   }
 
@@ -204,6 +206,28 @@ void GasSolver::Impl::set_drag_slope(const MomentumExchange& exchange) {
         component[face.ghost] = component[face.cell];
 }
 
+namespace {
+
+/// driving + 1/V sum of face(direction, position, stride) S over the faces of each cell.
+template <class Face>
+void set_gradient(const Block& block, Face&& face, const Vec3& driving, VectorField& out) {
+  const auto [si, sj, sk] = block.layout.stride;
+  const auto& [ai, aj, ak] = block.area;
+  for_cells(block.layout,
+            [&, si = si, sj = sj, sk = sk, &ai = ai, &aj = aj, &ak = ak](std::ptrdiff_t c) {
+              const double low_i = face(0, c, si), high_i = face(0, c + si, si);
+              const double low_j = face(1, c, sj), high_j = face(1, c + sj, sj);
+              const double low_k = face(2, c, sk), high_k = face(2, c + sk, sk);
+              for (std::size_t m = 0; m < 3; ++m)
+                out[m][c] = driving[int(m)] +
+                            (high_i * ai[m][c + si] - low_i * ai[m][c] + high_j * aj[m][c + sj] -
+                             low_j * aj[m][c] + high_k * ak[m][c + sk] - low_k * ak[m][c]) /
+                                block.volume[c];
+            });
+}
+
+} // namespace
+
 void GasSolver::Impl::set_pressure_gradient(Drive drive) {
   halo.exchange({&p});
   boundaries.fill_pressure(p, drag_slope, drive == Drive::given);
@@ -216,29 +240,24 @@ void GasSolver::Impl::set_pressure_gradient(Drive drive) {
   const Vec3 driving = drive == Drive::given ? fluid.driving_pressure_gradient : Vec3{};
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const Block& block = mesh.local[b];
-    const auto [si, sj, sk] = block.layout.stride;
-    const auto& [ai, aj, ak] = block.area;
+    const auto add = [&](auto&& face) { set_gradient(block, face, driving, grad_p[b]); };
+    const auto straight = [&](std::size_t d, std::ptrdiff_t f, std::ptrdiff_t s) {
+      return on_face(p[b], block.weight[d], f, s);
+    };
+    if (!has_drag && !block.skew) {
+      add(straight);
+      continue;
+    }
     const auto& slope = drag_slope[b];
-    for_cells(block.layout, [&, si = si, sj = sj, sk = sk, &ai = ai, &aj = aj,
-                             &ak = ak](std::ptrdiff_t c) {
-      const auto face = [&](std::size_t d, std::ptrdiff_t f, std::ptrdiff_t s) {
-        const double w = block.weight[d][f];
-        double jump = 0; // (slope below - slope above) . (way from centre to centre)
-        for (std::size_t m = 0; m < 3; ++m)
-          jump += (slope[m][f - s] - slope[m][f]) * (block.centre[m][f] - block.centre[m][f - s]);
-        double value = on_face(p[b], block.weight[d], f, s) + w * (1 - w) * jump;
-        if (block.skew)
-          value += along(block.skew->offset[d], pressure_slope[b], block.weight[d], f, s);
-        return value;
-      };
-      const double low_i = face(0, c, si), high_i = face(0, c + si, si);
-      const double low_j = face(1, c, sj), high_j = face(1, c + sj, sj);
-      const double low_k = face(2, c, sk), high_k = face(2, c + sk, sk);
+    add([&](std::size_t d, std::ptrdiff_t f, std::ptrdiff_t s) {
+      const double w = block.weight[d][f];
+      double jump = 0; // (slope below - slope above) . (way from centre to centre)
       for (std::size_t m = 0; m < 3; ++m)
-        grad_p[b][m][c] =
-            driving[int(m)] + (high_i * ai[m][c + si] - low_i * ai[m][c] + high_j * aj[m][c + sj] -
-                               low_j * aj[m][c] + high_k * ak[m][c + sk] - low_k * ak[m][c]) /
-                                  block.volume[c];
+        jump += (slope[m][f - s] - slope[m][f]) * (block.centre[m][f] - block.centre[m][f - s]);
+      double value = straight(d, f, s) + w * (1 - w) * jump;
+      if (block.skew)
+        value += along(block.skew->offset[d], pressure_slope[b], block.weight[d], f, s);
+      return value;
     });
   }
 }

@@ -94,13 +94,15 @@ void GasSolver::Impl::check_finite() const {
 
 /// Everything that the next step depends on.
 template <class Visit> void GasSolver::Impl::visit_state(Visit&& visit) {
-  double counters[] = {time,      dt_old,    double(steps), double(has_history), outflow.x,
-                       outflow.y, outflow.z, outflow_old.x, outflow_old.y,       outflow_old.z};
+  double counters[] = {time,          dt_old,        double(steps),   double(has_history),
+                       outflow.x,     outflow.y,     outflow.z,       outflow_old.x,
+                       outflow_old.y, outflow_old.z, double(has_drag)};
   visit(counters, std::size(counters));
   time = counters[0], dt_old = counters[1], steps = long(counters[2]),
   has_history = counters[3] != 0;
   outflow = {counters[4], counters[5], counters[6]};
   outflow_old = {counters[7], counters[8], counters[9]};
+  has_drag = counters[10] != 0;
   for (BlockFields* fields : {&eps, &eps_middle, &eps_inertia, &eps_rate, &eps_rate_old, &p})
     for (Field& field : *fields)
       visit(field.data(), field.size());
@@ -139,6 +141,7 @@ void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors&
   s.boundaries.fill_zero_gradient(s.eps_middle);
   s.p = make_fields(s.mesh);
   s.drag_slope = make_vectors(s.mesh);
+  s.has_drag = false;
   s.r = s.u = velocity;
   s.halo.exchange(s.u);
   s.boundaries.fill_velocity(s.u, s.eps_middle, time);
@@ -216,8 +219,9 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
     s.add_new_friction(new_time);
     s.project(new_time, Drive::given, exchange, report);
   }
-  s.check_finite();
   s.take_balance(dt, exchange, old_momentum);
+  if (!std::isfinite(norm(s.balance.momentum_residual)))
+    s.check_finite(); // names the cell and throws
   if (s.energy)
     s.energy->advance(dt, ratio, s.flux, s.eps, s.eps_middle, s.eddy_viscosity, heat, s.face_work,
                       s.balance);

@@ -66,7 +66,7 @@ struct GasSolver::Impl {
   void check_finite() const;
   void take_balance(double dt, const MomentumExchange* exchange, const Vec3& old_momentum);
 
-  [[nodiscard]] Vec3 momentum() const;
+  [[nodiscard]] Vec3 momentum();
   [[nodiscard]] std::string cell_name(std::int64_t encoded) const;
   template <class Term> double sum(Term&& term) const {
     double total = 0;
@@ -109,6 +109,7 @@ struct GasSolver::Impl {
   BlockFields p;
   BlockVectors grad_p;                     ///< driving part included
   BlockVectors drag_slope;                 ///< pressure gradient that balances the drag [Pa/m]
+  bool has_drag = false;                   ///< drag_slope may be other than 0
   FaceFields flux;                         ///< F [m3/s], along +direction
   BlockVectors convection, convection_old; ///< momentum leaving each cell [N]
   Vec3 outflow, outflow_old;               ///< of it, through the boundaries [N]
@@ -125,6 +126,7 @@ struct GasSolver::Impl {
   BlockFields inertia, defect;
   BlockFields spread; ///< viscous force on each cell, one component of the new velocity [N]
   FaceFields face_work, conductance;
+  std::vector<double> room; ///< for sums over rows
   PressureSystem system;
   Balance balance;
   Vec3 thermal_buoyancy;                  ///< of this step, this rank [N]
