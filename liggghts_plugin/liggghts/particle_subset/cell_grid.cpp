@@ -33,6 +33,16 @@ int CellGrid::cell_of(const Vec3& place) const {
   return (index[2] * cells_[1] + index[1]) * cells_[0] + index[0];
 }
 
+std::array<CellGrid::Run, 9> CellGrid::around(const Vec3& place) const {
+  std::array<Run, 9> runs;
+  const int* start = start_.data() + cell_of(place);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const int* middle = start + ((int(r / 3) - 1) * cells_[1] + int(r % 3) - 1) * cells_[0];
+    runs[r] = {middle[-1], middle[2]};
+  }
+  return runs;
+}
+
 void CellGrid::choose_cells(const Particles& particles, double reach, int threads) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};

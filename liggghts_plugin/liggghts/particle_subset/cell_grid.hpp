@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <granflux/cfd/vec3.hpp>
@@ -24,17 +25,16 @@ public:
     double x, y, z, radius;
   };
 
-  /// Calls visit(Entry, number) for every particle in the cells around a place within the grid.
-  template <class Visit> void around(const Vec3& place, Visit&& visit) const {
-    const int centre = cell_of(place);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy) {
-        const int middle = centre + dz * cells_[0] * cells_[1] + dy * cells_[0];
-        const int end = start_[std::size_t(middle + 2)];
-        for (int k = start_[std::size_t(middle - 1)]; k < end; ++k)
-          visit(entry_[std::size_t(k)], number_[std::size_t(k)]);
-      }
-  }
+  /// The places begin ... end - 1 in sorted order.
+  struct Run {
+    int begin, end;
+  };
+  /// The particles in the cells around a place within the grid.
+  [[nodiscard]] std::array<Run, 9> around(const Vec3& place) const;
+
+  /// Of each place in sorted order.
+  [[nodiscard]] const Entry* entries() const { return entry_.data(); }
+  [[nodiscard]] const int* numbers() const { return number_.data(); }
 
 private:
   [[nodiscard]] int cell_of(const Vec3& place) const;

@@ -41,6 +41,7 @@ private:
         batch_.entry[count] = e;
         batch_.separation.set(count, separation);
         batch_.distance_squared[count] = squared;
+        prefetch(j);
         // Overwritten by the next pair unless this one touches.
         count += squared < radii * radii;
         if (count == ContactBatch::capacity) {
@@ -50,6 +51,16 @@ private:
       }
     }
     finish(rows, count);
+  }
+
+  /// What gather and scatter will want of a partner comes from far while other pairs are measured.
+  void prefetch(int p) const {
+    __builtin_prefetch(p_.velocity + p);
+    __builtin_prefetch(p_.force + p, 1);
+    if constexpr (Law::turns) {
+      __builtin_prefetch(p_.spin + p);
+      __builtin_prefetch(p_.torque + p, 1);
+    }
   }
 
   void finish(ContactRows& rows, int count) {
@@ -112,24 +123,43 @@ private:
   }
 
   void scatter(ContactRows& rows, int count) {
-    for (int k = 0; k < count; ++k) {
-      const int i = batch_.i[k], j = batch_.j[k];
-      const Vec3 force = batch_.force.at(k);
-      if (own_.holds(i)) {
-        p_.force[i] += force;
+    for (int k = 0; k < count;) {
+      const int i = batch_.i[k];
+      if (!own_.holds(i)) {
+        add_to_partner(k);
+        put_memory(rows, k);
+        ++k;
+        continue;
+      }
+      // Along a row the force on its particle stays in registers.
+      Vec3 force = p_.force[i], torque = p_.torque[i];
+      for (; k < count && batch_.i[k] == i; ++k) {
+        force += batch_.force.at(k);
         if constexpr (Law::turns)
-          p_.torque[i] += batch_.torque_i.at(k);
+          torque += batch_.torque_i.at(k);
+        if (own_.holds(batch_.j[k]))
+          add_to_partner(k);
+        put_memory(rows, k);
       }
-      if (own_.holds(j)) {
-        p_.force[j] -= force;
-        if constexpr (Law::turns)
-          p_.torque[j] += batch_.torque_j.at(k);
-      }
-      if constexpr (Law::history > 0) {
-        const auto e = std::size_t(batch_.entry[k]);
-        rows.flags[e] |= Law::touched;
-        put_history(&rows.history[e * Law::history], k);
-      }
+      p_.force[i] = force;
+      if constexpr (Law::turns)
+        p_.torque[i] = torque;
+    }
+  }
+
+  void add_to_partner(int k) {
+    const int j = batch_.j[k];
+    p_.force[j] -= batch_.force.at(k);
+    if constexpr (Law::turns)
+      p_.torque[j] += batch_.torque_j.at(k);
+  }
+
+  void put_memory(ContactRows& rows, int k) const {
+    if constexpr (Law::history > 0) {
+      const auto e = std::size_t(batch_.entry[k]);
+      if (rows.flags[e] != Law::touched) // mostly it is: the line stays clean
+        rows.flags[e] = Law::touched;
+      put_history(&rows.history[e * Law::history], k);
     }
   }
 

@@ -82,6 +82,35 @@ void ContactLists::build(const Particles& particles, double skin, int threads, i
   }
 }
 
+/// The particles near to i that are above it or below its thread's range, in the order of the
+/// cells.
+int ContactLists::find_partners(const Particles& particles, double skin, Range own, int i,
+                                std::vector<int>& found) const {
+  const Vec3 x = particles.position[i];
+  const double reach = particles.radius[i] + skin;
+  const auto runs = cells_.around(x);
+  std::size_t most = 0;
+  for (const CellGrid::Run run : runs)
+    most += std::size_t(run.end - run.begin);
+  if (found.size() < most)
+    found.resize(2 * most);
+
+  const CellGrid::Entry* const entries = cells_.entries();
+  const int* const numbers = cells_.numbers();
+  int* const list = found.data();
+  int count = 0;
+  for (const CellGrid::Run run : runs)
+    for (int k = run.begin; k < run.end; ++k) {
+      const CellGrid::Entry other = entries[k];
+      const int p = numbers[k];
+      const double limit = reach + other.radius;
+      const bool near = distance_squared(x, {other.x, other.y, other.z}) <= limit * limit;
+      list[count] = p; // overwritten by the next unless it is one
+      count += near & ((p > i) | (p < own.begin));
+    }
+  return count;
+}
+
 void ContactLists::build_rows(const Particles& particles, double skin, const Excluded& excluded,
                               const PartnerHistory& kept, ThreadContacts& contacts) const {
   const Range own = contacts.own;
@@ -92,25 +121,14 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
     rows->begin.assign(1, 0);
     rows->begin.reserve(std::size_t(own.size()) + 1);
   }
-  std::vector<int> found(64);
+  std::vector<int> found;
   for (int i = own.begin; i < own.end; ++i) {
-    const Vec3 x = particles.position[i];
-    const double reach = particles.radius[i] + skin;
-    std::size_t count = 0;
-    cells_.around(x, [&](const CellGrid::Entry& other, int p) {
-      if (count == found.size())
-        found.resize(2 * found.size());
-      const double limit = reach + other.radius;
-      const bool near = distance_squared(x, {other.x, other.y, other.z}) <= limit * limit;
-      found[count] = p;
-      count += near & ((p > i) | (p < own.begin));
-    });
-    const auto end = found.begin() + std::ptrdiff_t(count);
-    const std::size_t lower_begin = lower.partner.size();
-    for (auto p = found.begin(); p != end; ++p)
+    const auto count = std::ptrdiff_t(find_partners(particles, skin, own, i, found));
+    const auto lower_begin = std::ptrdiff_t(lower.partner.size());
+    for (auto p = found.begin(); p != found.begin() + count; ++p)
       if (!excluded || !excluded(std::min(i, *p), std::max(i, *p)))
         (*p > i ? upper : lower).partner.push_back(*p);
-    std::sort(lower.partner.begin() + std::ptrdiff_t(lower_begin), lower.partner.end());
+    std::sort(lower.partner.begin() + lower_begin, lower.partner.end());
     lower.begin.push_back(int(lower.partner.size()));
     upper.begin.push_back(int(upper.partner.size()));
   }

@@ -69,6 +69,8 @@ public:
 private:
   void build_rows(const Particles& particles, double skin, const Excluded& excluded,
                   const PartnerHistory& kept, ThreadContacts& contacts) const;
+  int find_partners(const Particles& particles, double skin, Range own, int i,
+                    std::vector<int>& found) const;
 
   struct Kept {
     std::vector<int> partner;

@@ -18,7 +18,7 @@ namespace granflux::particle_subset {
   for (int step = 0; step < 3; ++step) {
     const double square = root * root;
     const double fifth_power = square * square * root;
-    root -= root * (fifth_power - x) / (3 * fifth_power + 2 * x);
+    root -= root * ((fifth_power - x) / (3 * fifth_power + 2 * x));
   }
   return root;
 }

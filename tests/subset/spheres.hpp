@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <particle_subset/contact_kernel.hpp>
+
+namespace granflux::particle_subset::test {
+
+/// Constants by name, the same for every pair of types unless a test says otherwise.
+struct TestMaterial : Material {
+  std::map<std::string, double, std::less<>> values;
+  std::map<std::string, bool, std::less<>> options;
+  double per_type = 0; ///< added share for each type above 1: types differ
+
+  [[nodiscard]] double pair(std::string_view name, int a, int b) const override {
+    return scalar(name) * (1 + per_type * (a + b - 2));
+  }
+  [[nodiscard]] double scalar(std::string_view name) const override {
+    const auto found = values.find(name);
+    if (found == values.end())
+      ADD_FAILURE() << "a law asked for " << name;
+    return found == values.end() ? 0 : found->second;
+  }
+  [[nodiscard]] bool option(std::string_view name) const override {
+    const auto found = options.find(name);
+    return found != options.end() && found->second;
+  }
+};
+
+/// Spheres that hold their own arrays, in place of the host.
+struct Spheres {
+  std::vector<Vec3> position, velocity, spin, force, torque;
+  std::vector<double> radius, mass;
+  std::vector<int> type, tag, groups;
+
+  [[nodiscard]] int count() const { return int(position.size()); }
+
+  void add(const Vec3& place, const Vec3& v, const Vec3& w, double r, double density,
+           int of_type = 1) {
+    position.push_back(place);
+    velocity.push_back(v);
+    spin.push_back(w);
+    force.push_back({});
+    torque.push_back({});
+    radius.push_back(r);
+    mass.push_back(density * 4 / 3 * std::numbers::pi * r * r * r);
+    type.push_back(of_type);
+    tag.push_back(count());
+    groups.push_back(1);
+  }
+
+  Particles view() {
+    return {.owned = count(),
+            .all = count(),
+            .position = position.data(),
+            .velocity = velocity.data(),
+            .spin = spin.data(),
+            .radius = radius.data(),
+            .mass = mass.data(),
+            .type = type.data(),
+            .tag = tag.data(),
+            .groups = groups.data(),
+            .frozen_group = 0,
+            .force = force.data(),
+            .torque = torque.data()};
+  }
+};
+
+/// The contacts of spheres on some threads, with the memory that the host would keep.
+class Contacts {
+public:
+  Contacts(const LawNames& names, const Material& material, int types, int threads)
+      : threads_(threads) {
+    std::string unknown;
+    kernel_ = make_contact_kernel(names, unknown);
+    if (!kernel_)
+      throw std::runtime_error(unknown);
+    kernel_->read(material, types);
+  }
+
+  void build(Spheres& s, double skin) {
+    const auto n = std::size_t(s.count());
+    count_.resize(n), partner_.resize(n), history_.resize(n);
+    lists_.build(s.view(), skin, threads_, kernel_->history_size(), {}, kept());
+  }
+  void store(Spheres& s) { lists_.store(s.view(), kept()); }
+
+  void forces(Spheres& s, double dt) {
+    s.force.assign(s.force.size(), {});
+    s.torque.assign(s.torque.size(), {});
+    const Particles all = s.view();
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+    for (int thread = 0; thread < threads_; ++thread)
+      kernel_->add(all, lists_.of(thread), dt);
+  }
+
+  [[nodiscard]] ContactLists& lists() {
+    return lists_;
+  }
+  [[nodiscard]] PartnerHistory kept() {
+    return {count_.data(), partner_.data(), history_.data()};
+  }
+
+private:
+  int threads_;
+  std::unique_ptr<ContactKernel> kernel_;
+  ContactLists lists_;
+  std::vector<int> count_;
+  std::vector<int*> partner_;
+  std::vector<double*> history_;
+};
+
+} // namespace granflux::particle_subset::test

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+#include <random>
+#include <set>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "spheres.hpp"
+
+namespace granflux::particle_subset::test {
+namespace {
+
+/// Spheres of three sizes and two types that press on each other, shaken by a fixed seed.
+Spheres heap(int side, double spacing) {
+  std::mt19937 generator(20);
+  std::uniform_real_distribution<double> shift(-1, 1);
+  Spheres s;
+  for (int k = 0; k < side; ++k)
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i) {
+        const auto some = [&](double size) {
+          const double x = shift(generator), y = shift(generator), z = shift(generator);
+          return size * Vec3{x, y, z};
+        };
+        s.add(spacing * Vec3{double(i), double(j), double(k)} + some(0.1 * spacing), some(0.2),
+              some(20), (0.8 + 0.2 * ((i + j + k) % 3)) * 1e-3, 2000, 1 + (i + k) % 2);
+      }
+  return s;
+}
+
+TestMaterial two_types() {
+  TestMaterial m;
+  m.values = {{"Yeff", 3e6},       {"Geff", 1e6},           {"betaeff", -0.2},
+              {"coeffFrict", 0.3}, {"coeffRollFrict", 0.1}, {"cohEnergyDens", 1e4}};
+  m.options = {{"tangential_damping", true}};
+  m.per_type = 0.1;
+  return m;
+}
+
+const LawNames all_laws{"hertz", "history", "epsd2", "sjkr"};
+constexpr double skin = 3e-4, dt = 1e-6;
+
+void move(Spheres& s) {
+  for (std::size_t p = 0; p < s.position.size(); ++p) {
+    s.velocity[p] += dt / s.mass[p] * s.force[p];
+    s.spin[p] += dt / (0.4 * s.mass[p] * s.radius[p] * s.radius[p]) * s.torque[p];
+    s.position[p] += dt * s.velocity[p];
+  }
+}
+
+Spheres after_steps(int threads, int steps, int between_builds, int side = 6) {
+  Spheres s = heap(side, 1.9e-3);
+  Contacts contacts(all_laws, two_types(), 2, threads);
+  for (int step = 0; step < steps; ++step) {
+    if (step % between_builds == 0) {
+      if (step > 0)
+        contacts.store(s);
+      contacts.build(s, skin);
+    }
+    contacts.forces(s, dt);
+    move(s);
+  }
+  return s;
+}
+
+TEST(ContactLists, HoldEveryPairOnceForEachOwner) {
+  for (const double spacing : {1.9e-3, 9e-3})
+    for (const int threads : {1, 2, 5}) {
+      Spheres s = heap(5, spacing);
+      Contacts contacts(all_laws, two_types(), 2, threads);
+      contacts.build(s, skin);
+      std::multiset<std::pair<int, int>> expected, found;
+      const Subset subset(s.count(), threads);
+      const auto owner = [&](int p) {
+        int thread = 0;
+        while (!subset.of(thread).holds(p))
+          ++thread;
+        return thread;
+      };
+      for (int i = 0; i < s.count(); ++i)
+        for (int j = i + 1; j < s.count(); ++j) {
+          const auto a = std::size_t(i), b = std::size_t(j);
+          if (norm(s.position[a] - s.position[b]) <= s.radius[a] + s.radius[b] + skin)
+            for (int copies = owner(i) == owner(j) ? 1 : 2; copies > 0; --copies)
+              expected.insert({i, j});
+        }
+      for (int thread = 0; thread < threads; ++thread) {
+        const ThreadContacts& mine = contacts.lists().of(thread);
+        for (int row = 0; row < mine.own.size(); ++row) {
+          const int p = mine.own.begin + row;
+          for (int e = mine.lower.row_begin(row); e < mine.lower.row_end(row); ++e)
+            found.insert({mine.lower.partner[std::size_t(e)], p});
+          for (int e = mine.upper.row_begin(row); e < mine.upper.row_end(row); ++e)
+            found.insert({p, mine.upper.partner[std::size_t(e)]});
+        }
+      }
+      EXPECT_EQ(found, expected) << spacing << ' ' << threads;
+    }
+}
+
+TEST(ContactLists, ForcesAreTheSameBitsOnAnyNumberOfThreads) {
+  const Spheres one = after_steps(1, 60, 7);
+  for (const int threads : {2, 3, 4, 7}) {
+    const Spheres many = after_steps(threads, 60, 7);
+    EXPECT_EQ(one.force, many.force) << threads;
+    EXPECT_EQ(one.torque, many.torque) << threads;
+    EXPECT_EQ(one.position, many.position) << threads;
+  }
+}
+
+TEST(ContactLists, MemoryOutlivesTheLists) {
+  // Nothing parts within the steps, so that lists built often forget no more than one built once.
+  for (const int threads : {1, 3}) {
+    const Spheres once = after_steps(threads, 40, 1000);
+    const Spheres often = after_steps(threads, 40, 4);
+    for (std::size_t p = 0; p < once.position.size(); ++p) {
+      EXPECT_LT(norm(once.force[p] - often.force[p]), 1e-12 * (1e-3 + norm(once.force[p])));
+      EXPECT_LT(norm(once.torque[p] - often.torque[p]), 1e-12 * (1e-6 + norm(once.torque[p])));
+    }
+  }
+}
+
+TEST(ContactLists, PartnersRememberOppositeSigns) {
+  Spheres s = heap(4, 1.9e-3);
+  Contacts contacts(all_laws, two_types(), 2, 2);
+  contacts.build(s, skin);
+  contacts.forces(s, dt);
+  contacts.store(s);
+  const PartnerHistory kept = contacts.kept();
+  int contacts_found = 0;
+  for (int i = 0; i < s.count(); ++i)
+    for (int a = 0; a < kept.count[i]; ++a) {
+      const int j = kept.partner[i][a] - 1;
+      int b = 0;
+      while (b < kept.count[j] && kept.partner[j][b] != i + 1)
+        ++b;
+      ASSERT_LT(b, kept.count[j]) << i << ' ' << j;
+      for (int d = 0; d < 6; ++d)
+        EXPECT_EQ(kept.history[i][6 * a + d], -kept.history[j][6 * b + d]);
+      ++contacts_found;
+    }
+  EXPECT_GT(contacts_found, 100);
+}
+
+TEST(ContactLists, MirrorFollowsTheUpperRows) {
+  Spheres s = heap(5, 1.9e-3);
+  Contacts contacts(all_laws, two_types(), 2, 3);
+  contacts.build(s, skin);
+  contacts.forces(s, dt);
+  for (int thread = 0; thread < 3; ++thread) {
+    auto& rows = contacts.lists().of(thread).lower;
+    rows.history.assign(rows.history.size(), 77.0);
+  }
+  contacts.lists().mirror_history();
+  Spheres fresh = s;
+  contacts.forces(s, dt);
+  Contacts other(all_laws, two_types(), 2, 3);
+  other.build(fresh, skin);
+  other.forces(fresh, dt);
+  other.forces(fresh, dt);
+  EXPECT_EQ(s.force, fresh.force);
+}
+
+TEST(Subset, RangesCoverAllAndBeginOnLines) {
+  for (const int count : {0, 1, 7, 8, 100, 12345})
+    for (const int threads : {1, 2, 3, 16}) {
+      const Subset subset(count, threads);
+      int next = 0;
+      for (int t = 0; t < threads; ++t) {
+        EXPECT_EQ(subset.of(t).begin, next);
+        EXPECT_TRUE(next == count || next % Subset::line == 0);
+        next = subset.of(t).end;
+      }
+      EXPECT_EQ(next, count);
+    }
+}
+
+TEST(ContactLists, NoParticlesAtAll) {
+  Spheres s;
+  Contacts contacts(all_laws, two_types(), 2, 2);
+  contacts.build(s, skin);
+  contacts.forces(s, dt);
+  contacts.store(s);
+  EXPECT_EQ(contacts.lists().of(1).own.size(), 0);
+}
+
+} // namespace
+} // namespace granflux::particle_subset::test
