@@ -27,6 +27,7 @@
 #include <granflux/cfd/read_gas_case.hpp>
 #include <granflux/version.hpp>
 
+#include "force_history.hpp"
 #include "progress.hpp"
 #include "time_steps.hpp"
 
@@ -37,6 +38,7 @@ using namespace granflux::cfd;
 
 struct Options {
   std::string case_file;
+  std::string forces;  ///< file for the forces on the walls; empty: none
   std::string restart; ///< checkpoint to continue from; empty: start anew
   int threads = 0;     ///< 0: as OMP_NUM_THREADS says, else one
 };
@@ -263,6 +265,7 @@ void run(const Options& options, MPI_Comm comm, bool prints) {
     timed(seconds.output, [&] { output.write_if_due(*gas, false); });
   else
     output.skip_to(gas->time());
+  ForceHistory forces(gas_case, options.forces, !options.restart.empty(), comm);
   Checkpoints checkpoints(gas_case.output);
   checkpoints.start(gas->time());
 
@@ -277,6 +280,7 @@ void run(const Options& options, MPI_Comm comm, bool prints) {
     const bool stopped = !done && stop_asked(comm);
     timed(seconds.output, [&] {
       output.write_if_due(*gas, done);
+      forces.add(*gas);
       checkpoints.write_if_due(*gas, done || stopped, steps, output.files());
     });
     progress.report(gas->steps(), gas->time(), report);
@@ -297,6 +301,8 @@ std::optional<int> parse(int argc, char** argv, Options& options, bool prints) {
   CLI::App app{"Runs the gas of a GranFlux case file alone. Start it under mpirun for several "
                "ranks."};
   app.add_option("case", options.case_file, "case file (TOML)")->required();
+  app.add_option("--forces", options.forces,
+                 "file for the force of the gas on each wall after every step (CSV)");
   app.add_option("--restart", options.restart,
                  "continue from this checkpoint ([output] checkpoint)");
   app.add_option("--threads", options.threads,

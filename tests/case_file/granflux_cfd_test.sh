@@ -109,6 +109,29 @@ sed 's/drum_0/none_0/' cases/again.toml >cases/none.toml
 expect 1 'error: cases/none.toml: [grid] file = "cases/../none_000000.cgns": cannot be read: No such file or directory' \
   cases/none.toml
 
+sed 's/true, true/false, true/' good.toml >walls.toml
+cat >>walls.toml <<'TOML'
+[[boundary]]
+name = "left, cold"
+side = "x_low"
+type = "wall"
+[[boundary]]
+name = "right"
+side = "x_high"
+type = "wall"
+TOML
+expect 0 "4 steps" walls.toml --forces forces.csv
+[[ $(wc -l <forces.csv) -eq 5 && $(head -1 forces.csv) == 'time,"left, cold x","left, cold y","left, cold z","right x","right y","right z"' ]] || {
+  failures=$((failures + 1))
+  cat forces.csv
+}
+# both walls are dragged along alike, and pressed apart
+awk -F, 'END { exit !($4 > 0 && $7 > 0 && ($4 / $7 - 1) ^ 2 < 1e-12 && $2 * $5 < 0) }' forces.csv || {
+  failures=$((failures + 1))
+  cat forces.csv
+}
+expect 1 "error: --forces forces.csv: the case has no wall" good.toml --forces forces.csv
+expect 1 "error: --forces none/forces.csv: cannot be written" walls.toml --forces none/forces.csv
 expect 0 "granflux_cfd 0." --version
 expect 0 "case file (TOML)" --help
 
