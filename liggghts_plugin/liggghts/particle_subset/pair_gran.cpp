@@ -192,7 +192,6 @@ void PairGran::build_lists_if_old() {
 }
 
 void PairGran::build_lists() {
-  const Lap lap(work_times().contact_lists);
   ContactLists::Excluded excluded;
   if (neighbor->exclude_setting())
     excluded = [this](int i, int j) {
