@@ -6,6 +6,7 @@
 
 #include <granflux/cfd/case_mesh.hpp>
 
+#include "expect_config_error.hpp"
 #include "gas_case_text.hpp"
 
 using granflux::Vec3;
@@ -147,6 +148,13 @@ TEST(ReadGasCase, TakesEveryKeyOfACylinder) {
   const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   EXPECT_GE(mesh.blocks.size(), 25u);
   EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"wall", "low", "high"}));
+}
+
+TEST(ReadGasCase, ParticlesNeedABox) {
+  EXPECT_EQ(box_grid(gas_case_of(good_case)).blocks, (Index3{1, 1, 2}));
+  EXPECT_EQ(config_error([] { (void)box_grid(gas_case_of(cylinder_case)); }),
+            "[grid] kind: must be \"box\" for a case with particles: they are located on straight "
+            "boxes of cells only");
 }
 
 TEST(ReadGasCase, TakesEveryKeyOfAGridFile) {
