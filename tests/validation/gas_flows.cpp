@@ -341,10 +341,14 @@ double wake_length(const Run& run) {
   const Block& block = run.block();
   const Layout& layout = block.layout;
   const Field& q = run.gas.velocity()[0][0];
+  const int rays = layout.cells[1];
   std::vector<Sample> axis{{0.5, 0}};
   for (int i = 0; i < layout.cells[0]; ++i) { // the axis lies between the first and the last ray
-    const std::ptrdiff_t above = layout.at(i, 0, 0), below = layout.at(i, layout.cells[1] - 1, 0);
-    axis.push_back({block.centre[0][above], 0.5 * (q[above] + q[below])});
+    const std::ptrdiff_t c = layout.at(i, 0, 0);
+    const double near = 0.5 * (q[c] + q[layout.at(i, rays - 1, 0)]);
+    const double far = 0.5 * (q[layout.at(i, 1, 0)] + q[layout.at(i, rays - 2, 0)]);
+    // The wake is narrow: on an arc the velocity is a parabola of the angle.
+    axis.push_back({std::hypot(block.centre[0][c], block.centre[1][c]), (9 * near - far) / 8});
   }
   for (std::size_t i = 1; i + 1 < axis.size(); ++i)
     if (axis[i].value < 0 && axis[i + 1].value >= 0) {
