@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
 GRANFLUX = ROOT / "build/release/bin/granflux"
@@ -17,20 +18,32 @@ ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_MCA_btl_vader_single_copy_mechanism="none")
 
 
-def start(folder, program, *words, ranks=1):
+class Run(NamedTuple):
+    output: str
+    wall: float  # s
+    cpu: float  # s, user and system, of all processes of the run
+
+
+def measured_start(folder, program, *words, ranks=1, environment=ENVIRONMENT, wrapper=()):
     mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)]
-    command = [*(mpirun if ranks > 1 else []), str(program), *words]
-    done = subprocess.run(command, cwd=folder, env=ENVIRONMENT, text=True, capture_output=True)
+    command = [*wrapper, *(mpirun if ranks > 1 else []), str(program), *words]
+    begin, before = time.monotonic(), os.times()
+    done = subprocess.run(command, cwd=folder, env=environment, text=True, capture_output=True)
+    wall, after = time.monotonic() - begin, os.times()
     if done.returncode != 0:
         sys.exit(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout
+    return Run(done.stdout, wall, after.children_user + after.children_system -
+               before.children_user - before.children_system)
+
+
+def start(*args, **options):
+    return measured_start(*args, **options).output
 
 
 def timed_start(*args, **options):
     """(output, seconds of the whole program)"""
-    begin = time.monotonic()
-    output = start(*args, **options)
-    return output, time.monotonic() - begin
+    run = measured_start(*args, **options)
+    return run.output, run.wall
 
 
 def loop_seconds(output):

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "../cfd/pressure_problem.hpp"
+#include "triad.hpp"
 
 namespace {
 
@@ -29,22 +30,6 @@ double seconds_of(const std::function<void()>& work) {
 
 double least(const std::vector<double>& values) {
   return *std::min_element(values.begin(), values.end());
-}
-
-/// GB/s of a[i] = b[i] + s c[i], 24 bytes counted an entry (the write's fetch is not).
-double triad() {
-  const std::size_t n = 8'000'000;
-  std::vector<double> a(n, 0), b(n, 1), c(n, 2);
-  std::vector<double> rates;
-  for (int round = 0; round < 7; ++round) {
-    const double s = 1 + 0.001 * round;
-    rates.push_back(24e-9 * double(n) / seconds_of([&] {
-#pragma omp parallel for simd schedule(static)
-                      for (std::size_t i = 0; i < n; ++i)
-                        a[i] = b[i] + s * c[i];
-                    }));
-  }
-  return *std::max_element(rates.begin(), rates.end());
 }
 
 void report(PressureMethod method, const char* name, int n, const Medium& medium, bool open) {
@@ -65,7 +50,7 @@ void report(PressureMethod method, const char* name, int n, const Medium& medium
     same.push_back(seconds_of([&] { done = solver->solve(problem.system, p); }));
   }
   const double solve = least(same), with_setup = least(changed);
-  const double triad_rate = triad();
+  const double triad_rate = granflux::bench::triad();
   std::printf("%-10s %4d  %3d iterations %8.2f ms  %6.2f ns a cell and iteration = %4.0f bytes of "
               "the triad's %.1f GB/s; new coefficients %6.2f ns a cell\n",
               name, n, done.iterations, 1e3 * with_setup, 1e9 * solve / cells / done.iterations,
