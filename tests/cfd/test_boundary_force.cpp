@@ -42,39 +42,68 @@ TEST(BoundaryForce, WallsOfAChannelBearItsPressureDrop) {
   EXPECT_THROW((void)gas.boundary_force("y_lo"), ConfigError);
 }
 
-TEST(BoundaryForce, SlantedCellsBetweenPlatesAreExact) {
-  // Couette flow is linear; its cells lean by 0.4 along it.
-  constexpr int n = 6;
-  constexpr double speed = 0.7, mu = 0.1, depth = 0.25;
+/// Box of height and length 1 that leans by 0.4 along x, floor and lid being walls; open to itself
+/// along x or closed by walls.
+constexpr double lid_speed = 0.7, viscosity = 0.1, depth = 0.25;
+
+GasCase leaning_case(bool closed) {
+  GasCase c;
+  c.fluid.density = 1;
+  c.fluid.viscosity = viscosity;
+  for (const char* name : {"floor", "lid", "left", "right"}) {
+    if (!closed && c.boundaries.size() == 2)
+      break;
+    BoundaryCondition wall;
+    wall.name = name;
+    if (wall.name == "lid")
+      wall.velocity = {lid_speed, 0, 0};
+    c.boundaries.push_back(wall);
+  }
+  c.numerics.convection = ConvectionScheme::central;
+  return c;
+}
+
+Mesh leaning_mesh(const GasCase& c, int n) {
   Grid grid;
   grid.blocks.push_back({"leaning",
                          {n, n, 2},
-                         [](int i, int j, int k) {
+                         [n](int i, int j, int k) {
                            return Vec3{double(i) / n + 0.4 * j / n, double(j) / n, depth * k / 2};
                          },
                          {}});
-  join_sides(grid, 0, {0, true}, 0, {1, 2, 3}, {1, 0, 0});
   join_sides(grid, 0, {2, true}, 0, {1, 2, 3}, {0, 0, depth});
-  for (const bool high : {false, true}) {
-    grid.blocks[0].patches.push_back(boundary_side(grid.blocks[0].cells, {1, high}, int(high)));
-    grid.boundaries.emplace_back(high ? "lid" : "floor");
+  if (c.boundaries.size() == 2)
+    join_sides(grid, 0, {0, true}, 0, {1, 2, 3}, {1, 0, 0});
+  constexpr Side sides[] = {{1, false}, {1, true}, {0, false}, {0, true}};
+  for (std::size_t b = 0; b < c.boundaries.size(); ++b) {
+    grid.blocks[0].patches.push_back(boundary_side(grid.blocks[0].cells, sides[b], int(b)));
+    grid.boundaries.push_back(c.boundaries[b].name);
   }
-  GasCase c;
-  c.fluid.density = 1;
-  c.fluid.viscosity = mu;
-  BoundaryCondition wall;
-  wall.name = "floor";
-  c.boundaries.push_back(wall);
-  wall.name = "lid";
-  wall.velocity = {speed, 0, 0};
-  c.boundaries.push_back(wall);
-  c.numerics.convection = ConvectionScheme::central;
-  const Mesh mesh = dealt(grid);
+  return dealt(grid);
+}
+
+TEST(BoundaryForce, LeaningCellsBetweenPlatesAreExact) {
+  const GasCase c = leaning_case(false);
+  const Mesh mesh = leaning_mesh(c, 6);
   ASSERT_FALSE(mesh.orthogonal);
   GasSolver gas(mesh, c);
   run(gas, 0.1, 400);
-  EXPECT_LT(norm(gas.boundary_force("floor") - Vec3{mu * speed * depth, 0, 0}), 1e-9);
-  EXPECT_LT(norm(gas.boundary_force("lid") + Vec3{mu * speed * depth, 0, 0}), 1e-9);
+  EXPECT_LT(norm(gas.boundary_force("floor") - Vec3{viscosity * lid_speed * depth, 0, 0}), 1e-9);
+  EXPECT_LT(norm(gas.boundary_force("lid") + Vec3{viscosity * lid_speed * depth, 0, 0}), 1e-9);
+}
+
+TEST(BoundaryForce, AllWallsTogetherBearWhatTheMomentumBudgetSays) {
+  const GasCase c = leaning_case(true);
+  const Mesh mesh = leaning_mesh(c, 8);
+  GasSolver gas(mesh, c);
+  run(gas, 0.05, 400); // the budget is of the middle of a step: steady
+  Vec3 all;
+  double scale = 0;
+  for (const BoundaryCondition& wall : c.boundaries) {
+    const Vec3 force = gas.boundary_force(wall.name);
+    all += force, scale += norm(force);
+  }
+  EXPECT_LT(norm(all + gas.balance().friction + gas.balance().pressure), 1e-9 * scale);
 }
 
 /// Gap between a cylinder of radius 1 at rest and one of radius 2 that turns at 1 rad/s:
