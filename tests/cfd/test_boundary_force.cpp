@@ -106,6 +106,41 @@ TEST(BoundaryForce, AllWallsTogetherBearWhatTheMomentumBudgetSays) {
   EXPECT_LT(norm(all + gas.balance().friction + gas.balance().pressure), 1e-9 * scale);
 }
 
+/// Rigid rotation, which is linear in x, on a ring whose rays are spirals: all parts of the stress
+/// together are nothing, on each half of the outer wall.
+TEST(BoundaryForce, GasThatTurnsWithItsWallsDoesNotRubOnThem) {
+  constexpr double outer = 2, length = 0.3, turning = 1.5;
+  AnnulusGrid annulus;
+  annulus.inner_radius = 1, annulus.outer_radius = outer, annulus.length = length;
+  annulus.radial = 5, annulus.tangential = 24, annulus.axial = 1;
+  annulus.periodic_axis = true;
+  annulus.arcs = {{"upper", 0, 180}, {"lower", 180, 360}};
+  Grid grid = make_annulus(annulus);
+  grid.blocks[0].node = [ring = grid.blocks[0].node](int i, int j, int k) {
+    const Vec3 x = ring(i, j, k);
+    const double angle = 0.4 * std::hypot(x.x, x.y), c = std::cos(angle), s = std::sin(angle);
+    return Vec3{c * x.x - s * x.y, s * x.x + c * x.y, x.z};
+  };
+  const Mesh mesh = dealt(grid);
+  GasCase c;
+  c.fluid.density = 1;
+  c.fluid.viscosity = viscosity;
+  for (const char* name : {"inner", "upper", "lower"}) {
+    BoundaryCondition wall;
+    wall.name = name;
+    wall.angular_velocity = {0, 0, turning};
+    c.boundaries.push_back(wall);
+  }
+  GasSolver gas(mesh, c);
+  BlockVectors velocity = make_vectors(mesh);
+  for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3& x) {
+    velocity[b][0][p] = -turning * x.y, velocity[b][1][p] = turning * x.x;
+  });
+  gas.initialise(make_fields(mesh, 1), velocity); // no pressure yet
+  for (const char* half : {"upper", "lower"})
+    EXPECT_LT(norm(gas.boundary_force(half)), 1e-10 * viscosity * turning * outer * length);
+}
+
 /// Gap between a cylinder of radius 1 at rest and one of radius 2 that turns at 1 rad/s:
 /// u = A r + B / r. Relative error of the friction on half of the outer one, which the transposed
 /// part of the stress has a share of: across the half's axis of symmetry only the friction pulls.
