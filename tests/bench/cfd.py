@@ -5,8 +5,8 @@
 Seconds of a step are those of a long run less those of a short one, so start-up drops out; of the
 clock, and of the processors (user and system, summed over ranks and threads), which a busy machine
 disturbs less. The divergence of both programs is measured as icoFoam prints it, time step times
-the mean of |div u| over the cells; granflux_cfd prints the largest relative to the fluxes, from which
-follows time step times the largest |div u|, never less than that mean.
+the mean of |div u| over the cells; granflux_cfd prints the largest relative to the fluxes, from
+which follows time step times the largest |div u|, never less than that mean.
 """
 
 import os
@@ -114,14 +114,15 @@ class Cavity:
         self.folder, self.cells, self.tolerance, self.viscous = folder, cells, tolerance, viscous
         self.threads, self.ranks = threads, ranks
 
-    def run(self, steps, wrapper=(), program=GRANFLUX_CFD):
+    def run(self, steps, wrapper=()):
         step = time_step(self.cells)
         case = string.Template((CAVITY / "cavity.toml").read_text()).substitute(
             cells=self.cells, time_step=step, end_time=steps * step,
             pressure_tolerance=self.tolerance, viscous_tolerance=self.viscous)
         (self.folder / "cavity.toml").write_text(case)
-        return measured_start(self.folder, program, "cavity.toml", "--threads", str(self.threads),
-                              ranks=self.ranks, environment=QUIET, wrapper=wrapper)
+        return measured_start(self.folder, GRANFLUX_CFD, "cavity.toml",
+                              "--threads", str(self.threads), ranks=self.ranks,
+                              environment=QUIET, wrapper=wrapper)
 
 
 def step_table(output):
@@ -165,7 +166,8 @@ class Series:
         self.output = long.output
 
     def result(self):
-        return {"cpu_ns_per_cell_step": spread(self.cpu), "wall_ns_per_cell_step": spread(self.wall)}
+        return {"cpu_ns_per_cell_step": spread(self.cpu),
+                "wall_ns_per_cell_step": spread(self.wall)}
 
 
 def bandwidth(threads):
@@ -183,14 +185,15 @@ def part_of(symbol):
 def samples(case, steps):
     """Of perf, by symbol."""
     data = case.folder / "perf.data"
-    case.run(steps, wrapper=("perf", "record", "-q", "-e", "cpu-clock", "-F", "997", "-o", str(data)))
+    case.run(steps, wrapper=("perf", "record", "-q", "-e", "cpu-clock", "-F", "997",
+                             "-o", str(data)))
     report = subprocess.run(["perf", "report", "-i", str(data), "--stdio", "--sort", "symbol", "-n",
                              "-g", "none", "-w", "0"], text=True, capture_output=True).stdout
     rows = re.findall(r"^ +[\d.]+% +(\d+) +(\[.\] .*?)(?: +- +-)? *$", report, re.M)
     return Counter({symbol: int(count) for count, symbol in rows})
 
 
-def short(symbol):
+def readable(symbol):
     """A symbol without namespaces and arguments, as far as one can read it."""
     symbol = re.sub(r"^\[.\] |granflux::cfd::|\(anonymous namespace\)::|Impl::", "", symbol)
     return symbol.partition("(")[0][:90]
@@ -208,7 +211,7 @@ def profile(case, steps):
     parts, functions = Counter(), Counter()
     for symbol, count in long.items():
         parts[part_of(symbol)] += count
-        functions[short(symbol)] += count
+        functions[readable(symbol)] += count
     return {"samples": total,
             "percent_by_part": {name: 100 * n / total for name, n in parts.most_common()},
             "percent_by_function": {name: 100 * n / total for name, n in functions.most_common(25)}}
@@ -217,10 +220,6 @@ def profile(case, steps):
 def ratio(theirs, ours):
     return {"cpu": spread([a / b for a, b in zip(theirs.cpu, ours.cpu)]),
             "wall": spread([a / b for a, b in zip(theirs.wall, ours.wall)])}
-
-
-def load():
-    return os.getloadavg()[0]
 
 
 def require_programs():
@@ -236,9 +235,9 @@ def require_programs():
 def cfd(quick):
     require_programs()
     cells, rounds = 64, 3 if quick else 5
-    steps = (3, 8) if quick else (5, 15)
-    sizes = {32: (5, 45) if quick else (5, 105), 64: steps, 128: (2, 5) if quick else (3, 8)}
-    loads = [load()]
+    steps = (3, 13) if quick else (5, 25)  # of the short and the long runs
+    sizes = {32: (5, 85) if quick else (5, 165), 64: steps, 128: (2, 6) if quick else (3, 11)}
+    loads = [os.getloadavg()[0]]
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         foams = {ranks: Foam(folder / f"foam{ranks}", cells, ranks) for ranks in (1, 2)}
@@ -277,7 +276,7 @@ def cfd(quick):
                 run.round()
             for threads, rates in triads.items():
                 rates.append(bandwidth(threads))
-            loads.append(load())
+            loads.append(os.getloadavg()[0])
             print(f"round {i + 1}/{rounds}, load {loads[-1]:.1f}, processor time, ns per cell and "
                   "step: " + ", ".join(f"{name} {run.cpu[-1]:.0f}" for name, run in runs.items()) +
                   "; " + ", ".join(f"{n}^3 {run.cpu[-1]:.0f}" for n, run in growth.items()),
@@ -289,7 +288,7 @@ def cfd(quick):
         "case": f"lid-driven cavity, Re 1000, {cells}^3 cells, time step {time_step(cells):g} L/U, "
                 f"steps {first + 1} to {steps[1]} after the start from rest",
         "rounds": rounds,
-        "load_average": {"median": statistics.median(loads), "least": min(loads), "most": max(loads)},
+        "load_average": spread(loads),
         "best_pressure_solver_of_icoFoam": {f"{ranks} ranks": name for ranks, name in best.items()},
         "processor_ns_per_cell_step_by_solver_of_icoFoam": {f"{ranks} ranks": f
                                                             for ranks, f in found.items()},
