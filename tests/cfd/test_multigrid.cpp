@@ -240,6 +240,96 @@ TEST(Multigrid, RoundingOfTheRightHandSideIsNotSolvedFor) {
   EXPECT_EQ(report.iterations, 0);
 }
 
+void multiply(PressureProblem& problem, double coefficients, double rhs) {
+  for (auto& block : problem.system.coefficient)
+    for (Field& field : block)
+      for (std::size_t c = 0; c < field.size(); ++c)
+        field[std::ptrdiff_t(c)] *= coefficients;
+  for (Field& field : problem.system.rhs)
+    for (std::size_t c = 0; c < field.size(); ++c)
+      field[std::ptrdiff_t(c)] *= rhs;
+}
+
+TEST(Multigrid, SizeOfTheNumbersDoesNotMatter) {
+  // Powers of 2 round nothing: the same bits, though single precision ends at 2^127.
+  PressureProblem problem = pressure_problem({16, 14, 12}, cubes, closed, {1, 2, 2});
+  fill_system(problem, random_medium(1e6), true);
+  PressureReport plain_report;
+  const std::vector<double> plain = solution(problem, 1e-12, &plain_report);
+  for (const auto& [coefficients, rhs] :
+       {std::pair{-900, -920}, {900, 880}, {-700, 10}, {500, -300}, {3, -60}}) {
+    fill_system(problem, random_medium(1e6), true);
+    multiply(problem, std::ldexp(1, coefficients), std::ldexp(1, rhs));
+    PressureReport report;
+    std::vector<double> p = solution(problem, 1e-12, &report);
+    for (double& value : p)
+      value = std::ldexp(value, coefficients - rhs);
+    EXPECT_EQ(p, plain) << coefficients << ", " << rhs;
+    EXPECT_EQ(report.iterations, plain_report.iterations);
+  }
+}
+
+TEST(Multigrid, StrongJumpsAreSolvedToTheTightestTolerance) {
+  for (const Medium& medium : {random_medium(1e6), ball_medium(1e6, 16), ball_medium(1e-6, 16)})
+    for (const bool open : {false, true}) {
+      PressureProblem problem = pressure_problem({16, 16, 16}, cubes, closed, {1, 2, 2});
+      fill_system(problem, medium, open);
+      PressureReport report;
+      const std::vector<double> p = solution(problem, 1e-13, &report);
+      EXPECT_LE(report.residual, 1e-13);
+      constexpr double of_field = 1e-13 * 1e6; // what a residual means where conductivity is least
+      EXPECT_LT(difference(p, direct_solution(problem)), of_field);
+    }
+}
+
+TEST(Multigrid, StartsFromAGuess) {
+  for (const bool open : {false, true}) {
+    PressureProblem problem =
+        pressure_problem({20, 18, 16}, cubes, {true, false, false}, {1, 2, 2});
+    fill_system(problem, random_medium(100), open);
+    const auto solver = make_multigrid_pressure_solver(problem.mesh, problem.singular, 1e-13);
+    BlockFields p = make_fields(problem.mesh);
+    const int from_zero = solver->solve(problem.system, p).iterations;
+    const std::vector<double> exact = on_box(problem, p);
+    // The solution: nothing is left to do but for its own rounding.
+    EXPECT_LE(solver->solve(problem.system, p, FirstGuess::given).iterations, 1);
+    // Nearly the solution, and off by a constant where that does not matter.
+    for_each_cell(problem.mesh, [&](std::size_t b, std::ptrdiff_t c, const Vec3& x) {
+      p[b][c] = p[b][c] * (1 + 1e-6 * std::sin(x.x)) + (open ? 0 : 3);
+    });
+    EXPECT_LE(solver->solve(problem.system, p, FirstGuess::given).iterations, from_zero - 3);
+    EXPECT_LT(difference(on_box(problem, p), exact), 1e-11);
+    // Far off.
+    for (Field& field : p)
+      field.fill(1e3);
+    solver->solve(problem.system, p, FirstGuess::given);
+    EXPECT_LT(difference(on_box(problem, p), exact), 1e-11);
+  }
+}
+
+TEST(Multigrid, KnowsWhetherCoefficientsHaveChanged) {
+  PressureProblem problem = pressure_problem({20, 20, 20}, cubes, closed, {1, 2, 2});
+  fill_system(problem, random_medium(100), true);
+  const auto used = make_multigrid_pressure_solver(problem.mesh, problem.singular, 1e-10);
+  BlockFields p = make_fields(problem.mesh);
+  used->solve(problem.system, p);
+  fill_system(problem, random_medium(100), true, 8); // another right-hand side
+  used->solve(problem.system, p);
+  EXPECT_EQ(on_box(problem, p), solution(problem, 1e-10));
+  // One coefficient of one rank, inside and on the open side.
+  for (const bool top : {false, true}) {
+    for (std::size_t b = 0; b < problem.mesh.local.size(); ++b)
+      if (problem.mesh.local[b].id == 3) {
+        const Layout& layout = problem.mesh.local[b].layout;
+        problem.system.coefficient[b][top ? 2 : 0][layout.at(2, 2, top ? layout.cells[2] : 2)] *=
+            1.5;
+      }
+    used->solve(problem.system, p);
+    PressureReport report;
+    EXPECT_LT(difference(on_box(problem, p), solution(problem, 1e-10, &report)), 1e-15);
+  }
+}
+
 /// Position of cell (1,1,1) of block 0 on the rank that has it, else nothing.
 std::vector<std::ptrdiff_t> a_cell(const Mesh& mesh) {
   if (mesh.local.empty() || mesh.local.front().id != 0)
@@ -299,6 +389,48 @@ TEST(Multigrid, GasFlowIsTheSameAsWithTheDirectSolver) {
   EXPECT_GT(multigrid_iterations, 0);
   EXPECT_LE(multigrid_iterations, 24);
   EXPECT_LT(difference(multigrid, direct), 1e-11);
+}
+
+/// Velocity (in m/s, about 1) and pressure over its largest value, cell by cell of the box.
+std::vector<double> bed_flow(const Index3& blocks) {
+  const Index3 cells{13, 10, 15};
+  GasCase c = box_case(cells, {13, 10, 15}, {true, false, false}, blocks);
+  boundary(c, "z_low").kind = BoundaryKind::inlet;
+  boundary(c, "z_low").velocity = {0, 0, 1};
+  boundary(c, "z_high").kind = BoundaryKind::outlet;
+  c.numerics.pressure_solver = PressureMethod::multigrid;
+  c.numerics.pressure_tolerance = 1e-15;
+  c.numerics.viscous_tolerance = 1e-15;
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
+  GasSolver gas(mesh, c);
+  MomentumExchange drag = make_exchange(mesh);
+  for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3& x) {
+    drag.drag_coefficient[b][p] = x.z < 7 ? 1e3 * (1 + std::sin(x.x)) : 0;
+  });
+  for (int step = 0; step < 5; ++step)
+    gas.advance(0.1, make_fields(mesh, 1), &drag);
+  const auto n = std::size_t(cells[0] * cells[1] * cells[2]);
+  std::vector<double> state(4 * n, 0.0);
+  for_each_cell(mesh, [&](std::size_t b, std::ptrdiff_t p, const Vec3& x) {
+    const std::size_t at =
+        std::size_t(x.x) + 13 * (std::size_t(x.y) + 10 * std::size_t(x.z)); // cells are 1 m wide
+    for (std::size_t m = 0; m < 3; ++m)
+      state[4 * at + m] = gas.velocity()[b][m][p];
+    state[4 * at + 3] = gas.pressure()[b][p];
+  });
+  MPI_Allreduce(MPI_IN_PLACE, state.data(), int(state.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  double most = 0;
+  for (std::size_t at = 0; at < n; ++at)
+    most = std::max(most, std::abs(state[4 * at + 3]));
+  for (std::size_t at = 0; at < n; ++at)
+    state[4 * at + 3] /= most;
+  return state;
+}
+
+TEST(Multigrid, FlowIsTheSameForCutsAnywhere) {
+  const std::vector<double> one = bed_flow({1, 1, 4});
+  for (const Index3& blocks : {Index3{2, 2, 1}, {1, 1, 5}, {3, 1, 2}})
+    EXPECT_LT(difference(bed_flow(blocks), one), 1e-12);
 }
 
 } // namespace
