@@ -4,6 +4,7 @@
 #include "fix_wall_gran.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 
@@ -13,12 +14,15 @@
 #include <liggghts/fix_mesh_surface.h>
 #include <liggghts/fix_neighlist_mesh.h>
 #include <liggghts/fix_property_atom.h>
+#include <liggghts/force.h>
 #include <liggghts/granular_wall.h>
 #include <liggghts/multi_vector_container.h>
 #include <liggghts/neighbor.h>
 #include <liggghts/primitive_wall.h>
 #include <liggghts/tri_mesh.h>
+#include <liggghts/update.h>
 
+#include "host_material.hpp"
 #include "say_once.hpp"
 #include "team.hpp"
 
@@ -42,7 +46,95 @@ bool laws_are_separate(LIGGGHTS::Walls::IGranularWall& wall) {
          one_of("cohesion"s, {"off", "sjkr", "sjkr2"});
 }
 
+Vec3* rows(double** array) {
+  return array ? reinterpret_cast<Vec3*>(array[0]) : nullptr;
+}
+
+WallTouch wall_touch(int particle, double gap, const double* to_wall, const double* velocity,
+                     double* history) {
+  return {.particle = particle,
+          .gap = gap,
+          .separation = {-to_wall[0], -to_wall[1], -to_wall[2]},
+          .wall_velocity = {velocity[0], velocity[1], velocity[2]},
+          .history = history,
+          .force = {}};
+}
+
+/// The words of the contact model and its options, which stand before and after those of the wall.
+std::vector<char*> model_words(int narg, char** arg, int options) {
+  constexpr std::array keywords{"model", "tangential", "rolling_friction", "cohesion", "surface"};
+  std::vector<char*> words;
+  for (int w = 3;
+       w + 1 < options && std::ranges::find(keywords, std::string_view(arg[w])) != keywords.end();
+       w += 2)
+    words.insert(words.end(), {arg[w], arg[w + 1]});
+  words.insert(words.end(), arg + options, arg + narg);
+  return words;
+}
+
 } // namespace
+
+/// Touches of one thread, evaluated some at a time.
+class FixWallGran::Batch {
+public:
+  Batch(FixWallGran& fix, int wall_type) : fix_(fix), wall_type_(wall_type) {}
+  ~Batch() { evaluate(); }
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  void add(const WallTouch& touch, ForceOnMesh* on_mesh) {
+    touch_[count_] = touch;
+    on_mesh_[count_] = on_mesh;
+    if (++count_ == capacity)
+      evaluate();
+  }
+
+private:
+  static constexpr std::size_t capacity = 32;
+
+  void evaluate() {
+    const std::span touches(touch_.data(), count_);
+    fix_.kernel_->add(fix_.particles_, touches, wall_type_, fix_.update->dt);
+    for (std::size_t k = 0; k < count_; ++k) {
+      const Vec3& force = touch_[k].force;
+      if (fix_.store_force_)
+        for (int d = 0; d < 3; ++d)
+          fix_.fix_wallforce_->array_atom[touch_[k].particle][d] += force[d];
+      if (on_mesh_[k]) {
+        on_mesh_[k]->acts = true;
+        for (int d = 0; d < 3; ++d)
+          on_mesh_[k]->force[d] = force[d];
+      }
+    }
+    count_ = 0;
+  }
+
+  FixWallGran& fix_;
+  int wall_type_;
+  std::size_t count_ = 0;
+  std::array<WallTouch, capacity> touch_;
+  std::array<ForceOnMesh*, capacity> on_mesh_;
+};
+
+FixWallGran::FixWallGran(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : LAMMPS_NS::FixWallGran(lammps, narg, arg) {
+  std::vector<char*> words = model_words(narg, arg, iarg_);
+  words_ = read_gran_words(words);
+  kernel_ = make_wall_kernel(words_.laws);
+}
+
+void FixWallGran::init() {
+  LAMMPS_NS::FixWallGran::init();
+  if (kernel_suits())
+    kernel_->read(HostMaterial(force->registry, words_, "fix wall/gran"), atom->ntypes);
+}
+
+/// False: contacts are evaluated by LIGGGHTS' own law.
+bool FixWallGran::kernel_suits() const {
+  return kernel_ && words_.malformed.empty() && words_.surface == "default" &&
+         words_.unsupported_option().empty() && dnum_ == kernel_->history_size() &&
+         !fix_sum_normal_force_ && force->nktv2p == 1 && !force->cg_active();
+}
 
 void FixWallGran::pre_neighbor() {
   LAMMPS_NS::FixWallGran::pre_neighbor();
@@ -82,7 +174,8 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
     say_once(*lmp, std::string("fix wall/gran is LIGGGHTS' own for ") + reason);
     return false;
   }
-  if (!all_of_one_type())
+  by_kernel_ = kernel_suits();
+  if (!by_kernel_ && !all_of_one_type())
     return false;
   computeflag_ = shearupdate_ = 1; // a step, not its setup
   addflag_ = 0;                    // not asked for by a compute
@@ -90,6 +183,18 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
   f_ = atom->f;
   radius_ = atom->radius;
   cutneighmax_ = neighbor->cutneighmax;
+  particles_ = {.owned = atom->nlocal,
+                .all = atom->nlocal,
+                .position = rows(atom->x),
+                .velocity = rows(atom->v),
+                .spin = rows(atom->omega),
+                .radius = atom->radius,
+                .mass = atom->rmass,
+                .type = atom->type,
+                .tag = atom->tag,
+                .groups = atom->mask,
+                .force = rows(atom->f),
+                .torque = rows(atom->torque)};
   if (meshwall_ == 1) {
     for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
       begin_mesh(mesh);
@@ -112,21 +217,21 @@ void FixWallGran::touch_primitive(Range own) {
   double wall_velocity[3] = {0, 0, 0};
   if (shear_)
     wall_velocity[shearDim_] = vshear_;
+  Batch batch(*this, atom_type_wall_);
   int* first = nullptr;
   const int count = primitiveWall_->getNeighbors(first);
   const std::span<const int> near(first, std::size_t(count)); // ascending
   for (auto p = std::lower_bound(near.begin(), near.end(), own.begin);
        p != near.end() && *p < own.end; ++p)
     if (atom->mask[*p] & groupbit)
-      touch_primitive(*p, wall_velocity);
+      touch_primitive(*p, wall_velocity, batch);
 }
 
-void FixWallGran::touch_primitive(int particle, const double* wall_velocity) {
+void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Batch& batch) {
   double* history = dnum() > 0 ? fix_history_primitive_->array_atom[particle] : nullptr;
-  SurfacesIntersectData contact;
-  contact.radi = radius_[particle];
+  const double radius = radius_[particle];
   double to_wall[3] = {0, 0, 0};
-  const double gap = primitiveWall_->resolveContact(x_[particle], contact.radi, to_wall);
+  const double gap = primitiveWall_->resolveContact(x_[particle], radius, to_wall);
   if (gap > cutneighmax_)
     return;
   if (gap > 0) {
@@ -139,13 +244,11 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity) {
     primitiveWall_->calcRadialDistance(x_[particle], radial);
     LAMMPS_NS::vectorCross3D(shearAxisVec_, radial, velocity);
   }
-  contact.is_wall = true;
-  contact.i = particle;
-  contact.contact_history = history;
-  contact.deltan = -gap;
-  for (int d = 0; d < 3; ++d)
-    contact.delta[d] = -to_wall[d];
-  impl->compute_force(this, contact, true, velocity);
+  const WallTouch touch = wall_touch(particle, gap, to_wall, velocity, history);
+  if (by_kernel_)
+    batch.add(touch, nullptr);
+  else
+    touch_by_host(touch, nullptr, 0, nullptr);
 }
 
 void FixWallGran::begin_mesh(int number) {
@@ -154,7 +257,7 @@ void FixWallGran::begin_mesh(int number) {
   LAMMPS_NS::TriMesh& triangles = *fix.triMesh();
   meshes_.resize(std::size_t(n_FixMesh_));
   Mesh& mesh = meshes_[std::size_t(number)];
-  atom_type_wall_ = fix.atomTypeWall();
+  atom_type_wall_ = mesh.wall_type = fix.atomTypeWall();
   auto* velocities = triangles.prop().getElementProperty<CornerVelocities>("v");
   mesh.triangles = &triangles;
   mesh.history = fix.contactHistory();
@@ -174,6 +277,7 @@ void FixWallGran::begin_mesh(int number) {
 }
 
 void FixWallGran::touch_mesh(Mesh& mesh, Range own) {
+  Batch batch(*this, mesh.wall_type);
   const WallPairs& pairs = mesh.pairs;
   const auto first = std::lower_bound(pairs.particle.begin(), pairs.particle.end(), own.begin);
   for (auto row = std::size_t(first - pairs.particle.begin());
@@ -181,7 +285,8 @@ void FixWallGran::touch_mesh(Mesh& mesh, Range own) {
     for (auto pair = std::size_t(pairs.begin[row]); pair < std::size_t(pairs.begin[row + 1]);
          ++pair)
       touch_mesh(mesh, pairs.particle[row], pairs.triangle[pair],
-                 mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])]);
+                 mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])],
+                 batch);
   if (mesh.history)
     mesh.history->cleanUpContacts(own.begin, own.end);
 }
@@ -200,6 +305,7 @@ void FixWallGran::end_own_work() {
 
 /// Where meshes are of different types, and in the setup of a run: one after the other.
 void FixWallGran::post_force_mesh(int vflag) {
+  by_kernel_ = false;                   // in a setup histories stay as they are
   if (addflag_ || reason_for_stock()) { // addflag: asked by a compute, contact by contact
     LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
     return;
@@ -212,18 +318,18 @@ void FixWallGran::post_force_mesh(int vflag) {
   }
 }
 
-void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh) {
+void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh,
+                             Batch& batch) {
   constexpr int face = 7; // place of the nearest point: within the triangle
-  SurfacesIntersectData contact;
-  contact.radi = radius_[particle];
   double to_wall[3], weight[3];
   int place = 0;
   const double gap = mesh.triangles->resolveTriSphereContactBary(
-      particle, triangle, contact.radi, x_[particle], to_wall, weight, place, true);
+      particle, triangle, radius_[particle], x_[particle], to_wall, weight, place, true);
   if (gap > 0)
     return;
-  if (mesh.history && !mesh.history->handleContact(particle, mesh.triangles->id(triangle),
-                                                   contact.contact_history, true, place == face))
+  double* history = nullptr;
+  if (mesh.history && !mesh.history->handleContact(particle, mesh.triangles->id(triangle), history,
+                                                   true, place == face))
     return;
   double wall_velocity[3] = {0, 0, 0};
   if (mesh.velocity) {
@@ -232,27 +338,49 @@ void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, Force
       wall_velocity[d] =
           weight[0] * corner[0][d] + weight[1] * corner[1][d] + weight[2] * corner[2][d];
   }
+  if (on_mesh) {
+    on_mesh->particle = particle;
+    on_mesh->triangle = triangle;
+    for (int d = 0; d < 3; ++d) {
+      on_mesh->to_wall[d] = to_wall[d];
+      on_mesh->wall_velocity[d] = wall_velocity[d];
+    }
+  }
+  const WallTouch touch = wall_touch(particle, gap, to_wall, wall_velocity, history);
+  if (by_kernel_)
+    batch.add(touch, on_mesh);
+  else
+    touch_by_host(touch, &mesh, triangle, on_mesh);
+}
+
+void FixWallGran::touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle,
+                                ForceOnMesh* on_mesh) {
+  SurfacesIntersectData contact;
   contact.is_wall = true;
-  contact.i = particle;
-  contact.mesh = mesh.triangles;
-  contact.fix_mesh = FixMesh_list_[mesh.number];
-  contact.deltan = -gap;
-  for (int d = 0; d < 3; ++d)
-    contact.delta[d] = -to_wall[d];
-  double* sum = f_[particle];
+  contact.i = touch.particle;
+  contact.radi = radius_[touch.particle];
+  contact.contact_history = touch.history;
+  contact.deltan = -touch.gap;
+  double wall_velocity[3];
+  for (int d = 0; d < 3; ++d) {
+    contact.delta[d] = touch.separation[d];
+    wall_velocity[d] = touch.wall_velocity[d];
+  }
+  const double* sum = f_[touch.particle];
   const double before[3] = {sum[0], sum[1], sum[2]};
-  impl->compute_force(this, contact, true, wall_velocity, nullptr, mesh.number, mesh.triangles,
-                      triangle);
+  if (mesh) {
+    contact.mesh = mesh->triangles;
+    contact.fix_mesh = FixMesh_list_[mesh->number];
+    impl->compute_force(this, contact, true, wall_velocity, nullptr, mesh->number, mesh->triangles,
+                        triangle);
+  } else {
+    impl->compute_force(this, contact, true, wall_velocity);
+  }
   if (!on_mesh || !contact.has_force_update)
     return;
   on_mesh->acts = true;
-  on_mesh->particle = particle;
-  on_mesh->triangle = triangle;
-  for (int d = 0; d < 3; ++d) {
+  for (int d = 0; d < 3; ++d)
     on_mesh->force[d] = sum[d] - before[d];
-    on_mesh->to_wall[d] = to_wall[d];
-    on_mesh->wall_velocity[d] = wall_velocity[d];
-  }
 }
 
 } // namespace granflux::particle_subset

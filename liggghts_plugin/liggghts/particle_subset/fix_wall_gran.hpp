@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 // LIGGGHTS' headers need this order.
@@ -11,18 +12,23 @@
 
 #include <liggghts/fix_wall_gran.h>
 
+#include "gran_words.hpp"
 #include "own_work.hpp"
+#include "particles.hpp"
+#include "wall_kernel.hpp"
 #include "wall_pairs.hpp"
 
 namespace granflux::particle_subset {
 
 /// fix wall/gran, primitives and meshes, with every thread evaluating contacts of its own
-/// particles by LIGGGHTS' own law. What would make threads meet (contacts stored or printed one by
-/// one, heat of walls, energy budgets, rigid bodies, multi-contact laws) is LIGGGHTS' own.
+/// particles, by a law of particle_subset or, where there is none, by LIGGGHTS' own. What would
+/// make threads meet (contacts stored or printed one by one, heat of walls, energy budgets, rigid
+/// bodies, multi-contact laws) is LIGGGHTS' own.
 class FixWallGran : public LAMMPS_NS::FixWallGran, public OwnWork {
 public:
-  using LAMMPS_NS::FixWallGran::FixWallGran;
+  FixWallGran(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
+  void init() override;
   void pre_neighbor() override;
 
   bool begin_own_work(int eflag, int vflag) override;
@@ -43,20 +49,28 @@ private:
     LAMMPS_NS::TriMesh* triangles = nullptr;
     LAMMPS_NS::FixContactHistoryMesh* history = nullptr;
     double*** velocity = nullptr; // of the three corners of each triangle, or null
-    int number = 0;
+    int number = 0, wall_type = 1;
     WallPairs pairs;
     std::vector<ForceOnMesh> forces; // of each pair, where a module of the mesh sums them
   };
 
   [[nodiscard]] const char* reason_for_stock() const;
+  class Batch;
+
+  [[nodiscard]] bool kernel_suits() const;
   [[nodiscard]] bool all_of_one_type() const;
   void touch_primitive(Range own);
-  void touch_primitive(int particle, const double* wall_velocity);
+  void touch_primitive(int particle, const double* wall_velocity, Batch& batch);
   void begin_mesh(int number);
   void sum_on_mesh(Mesh& mesh);
   void touch_mesh(Mesh& mesh, Range own);
-  void touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh);
+  void touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh, Batch& batch);
+  void touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle, ForceOnMesh* on_mesh);
 
+  GranWords words_;
+  std::unique_ptr<WallKernel> kernel_; // null: there is none for these laws
+  bool by_kernel_ = false;             // in this step
+  Particles particles_;
   std::vector<Mesh> meshes_;
 };
 

@@ -4,19 +4,11 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "choices.hpp"
 #include "contact_forces.hpp"
 #include "contact_kernel.hpp"
-#include "law/cohesion_off.hpp"
-#include "law/cohesion_sjkr.hpp"
-#include "law/rolling_cdt.hpp"
-#include "law/rolling_epsd2.hpp"
-#include "law/rolling_off.hpp"
-#include "law/tangential_history.hpp"
-#include "law/tangential_no_history.hpp"
-#include "law/tangential_off.hpp"
 
 // The kernels of one normal law with all laws that may go with it. A normal law has a source file
 // of its own, so that the compiler works on them side by side.
@@ -46,19 +38,8 @@ private:
   std::vector<typename Law::Constants> constants_;
 };
 
-template <class... Laws> struct Choices {};
-
-/// Calls make with the law of that name as an empty object; false if there is none.
-template <class... Laws, class Make>
-bool choose(Choices<Laws...>, std::string_view name, Make&& make) {
-  return ((name == Laws::name && (make(Laws{}), true)) || ...);
-}
-
 template <class Normal>
 std::unique_ptr<ContactKernel> kernel_with_normal(const LawNames& names, std::string& unknown) {
-  using TangentialLaws = Choices<TangentialOff, TangentialHistory, TangentialNoHistory>;
-  using RollingLaws = Choices<RollingOff, RollingCdt, RollingEpsd2>;
-  using CohesionLaws = Choices<CohesionOff, CohesionSjkr>;
   std::unique_ptr<ContactKernel> kernel;
   const bool tangential = choose(TangentialLaws{}, names.tangential, [&](auto t) {
     const bool rolling = choose(RollingLaws{}, names.rolling, [&](auto r) {

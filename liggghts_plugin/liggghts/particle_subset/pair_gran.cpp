@@ -21,33 +21,13 @@
 #include <liggghts/update.h>
 
 #include "fix_contact_history.hpp"
+#include "host_material.hpp"
 #include "say_once.hpp"
 #include "work_times.hpp"
 
 namespace granflux::particle_subset {
 
 namespace {
-
-/// Constants of the laws as LIGGGHTS derives them from the script's properties.
-class HostMaterial : public Material {
-public:
-  HostMaterial(PropertyRegistry& registry, const GranWords& words)
-      : registry_(registry), words_(words) {}
-  [[nodiscard]] double pair(std::string_view property, int a, int b) const override {
-    return registry_.getMatrixProperty(std::string(property), caller)->data[a][b];
-  }
-  [[nodiscard]] double scalar(std::string_view property) const override {
-    return registry_.getScalarProperty(std::string(property), caller)->data;
-  }
-  [[nodiscard]] bool option(std::string_view keyword) const override {
-    return words_.option(keyword);
-  }
-
-private:
-  static constexpr const char* caller = "pair_style gran by particle subset";
-  PropertyRegistry& registry_;
-  const GranWords& words_;
-};
 
 /// Neighbor::exclusion is protected: a class derived from Neighbor may name it.
 struct NeighborAccess : LAMMPS_NS::Neighbor {
@@ -142,7 +122,7 @@ void PairGran::init_style() {
 void PairGran::init_granular() {
   PairGranProxy::init_granular();
   if (by_subset_)
-    kernel_->read(HostMaterial(force->registry, words_), atom->ntypes);
+    kernel_->read(HostMaterial(force->registry, words_, "pair_style gran"), atom->ntypes);
 }
 
 Particles PairGran::particles() const {

@@ -31,6 +31,11 @@ struct CohesionSjkr {
                         ((r - ri - rj) * (r + ri - rj) * (r - ri + rj) * (r + ri + rj)) / (r * r);
     return -k.energy_density * area;
   }
+  /// Of a wall, whose plane cuts the sphere in a circle.
+  static double force_of_wall(const Constants& k, const Contact& c) {
+    const double area = std::numbers::pi * (c.radius_i * c.radius_i - c.distance * c.distance);
+    return -k.energy_density * area;
+  }
 };
 
 } // namespace granflux::particle_subset

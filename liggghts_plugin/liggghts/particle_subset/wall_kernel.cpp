@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "wall_kernel.hpp"
+
+#include <vector>
+
+#include "choices.hpp"
+#include "law/hertz.hpp"
+#include "law/hertz_stiffness.hpp"
+#include "law/hooke.hpp"
+#include "law/hooke_stiffness.hpp"
+#include "wall_law.hpp"
+
+namespace granflux::particle_subset {
+
+namespace {
+
+template <class Law> class WallKernelOf final : public WallKernel {
+public:
+  [[nodiscard]] int history_size() const override { return Law::history; }
+
+  void read(const Material& material, int types) override {
+    types_ = types;
+    constants_.clear();
+    for (int particle = 1; particle <= types; ++particle)
+      for (int wall = 1; wall <= types; ++wall)
+        constants_.push_back(Law::constants(material, particle, wall));
+  }
+
+  void add(const Particles& p, std::span<WallTouch> touches, int wall_type,
+           double dt) const override {
+    for (WallTouch& touch : touches) {
+      const int i = touch.particle;
+      const TouchedWall wall{.separation = touch.separation,
+                             .velocity = p.velocity[i] - touch.wall_velocity,
+                             .spin = p.spin[i],
+                             .distance = p.radius[i] + touch.gap,
+                             .radius = p.radius[i],
+                             .mass = p.mass[i]};
+      const auto& k = constants_[std::size_t((p.type[i] - 1) * types_ + wall_type - 1)];
+      Vec3 tangential = history_at<Law::has_tangential_history>(touch.history);
+      Vec3 rolling = history_at<Law::has_rolling_history>(touch.history + Law::rolling_offset);
+      const auto f = Law::force(k, wall, dt, tangential, rolling);
+      keep_history<Law::has_tangential_history>(touch.history, tangential);
+      keep_history<Law::has_rolling_history>(touch.history + Law::rolling_offset, rolling);
+      p.force[i] += f.force;
+      p.torque[i] += f.torque;
+      touch.force = f.force;
+    }
+  }
+
+private:
+  template <bool has> static Vec3 history_at(const double* h) {
+    if constexpr (has)
+      return {h[0], h[1], h[2]};
+    else
+      return {};
+  }
+  template <bool has> static void keep_history(double* h, const Vec3& v) {
+    if constexpr (has)
+      h[0] = v.x, h[1] = v.y, h[2] = v.z;
+  }
+
+  int types_ = 0;
+  std::vector<typename Law::Constants> constants_;
+};
+
+template <class Normal> std::unique_ptr<WallKernel> with_normal(const LawNames& names) {
+  std::unique_ptr<WallKernel> kernel;
+  choose(TangentialLaws{}, names.tangential, [&](auto t) {
+    choose(RollingLaws{}, names.rolling, [&](auto r) {
+      choose(CohesionLaws{}, names.cohesion, [&](auto c) {
+        using Law = WallLaw<Normal, decltype(t), decltype(r), decltype(c)>;
+        kernel = std::make_unique<WallKernelOf<Law>>();
+      });
+    });
+  });
+  return kernel;
+}
+
+} // namespace
+
+std::unique_ptr<WallKernel> make_wall_kernel(const LawNames& names) {
+  std::unique_ptr<WallKernel> kernel;
+  choose(Choices<Hooke, HookeStiffness, Hertz, HertzStiffness>{}, names.normal,
+         [&](auto normal) { kernel = with_normal<decltype(normal)>(names); });
+  return kernel;
+}
+
+} // namespace granflux::particle_subset

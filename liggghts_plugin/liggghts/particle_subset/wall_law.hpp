@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact.hpp"
+#include "material.hpp"
+
+namespace granflux::particle_subset {
+
+/// A sphere that touches a wall.
+struct TouchedWall {
+  Vec3 separation; ///< from the wall's nearest point to the centre
+  Vec3 velocity;   ///< of the centre relative to the wall
+  Vec3 spin;       ///< angular velocity
+  double distance; ///< of the centre from the wall
+  double radius, mass;
+};
+
+/// The laws of a contact with a wall: a sphere of infinite radius and mass that does not spin.
+template <class Normal, class Tangential, class Rolling, class Cohesion> struct WallLaw {
+  static constexpr int history = Tangential::history + Rolling::history; ///< doubles a contact
+  static constexpr int rolling_offset = Tangential::history;
+  static constexpr bool has_tangential_history = Tangential::history > 0;
+  static constexpr bool has_rolling_history = Rolling::history > 0;
+
+  struct Constants {
+    [[no_unique_address]] typename Normal::Constants normal;
+    [[no_unique_address]] typename Tangential::Constants tangential;
+    [[no_unique_address]] typename Rolling::Constants rolling;
+    [[no_unique_address]] typename Cohesion::Constants cohesion;
+  };
+  static Constants constants(const Material& m, int particle, int wall) {
+    return {Normal::constants(m, particle, wall), Tangential::constants(m, particle, wall),
+            Rolling::constants(m, particle, wall), Cohesion::constants(m, particle, wall)};
+  }
+
+  struct Force {
+    Vec3 force, torque; ///< on the particle
+  };
+
+  /// The histories are brought to the end of the step of `dt` seconds.
+  static Force force(const Constants& k, const TouchedWall& w, double dt, Vec3& tangential_history,
+                     Vec3& rolling_history) {
+    const double inverse = 1 / w.distance;
+    Contact c;
+    c.normal = inverse * w.separation;
+    c.distance = w.distance;
+    c.overlap = w.radius - w.distance;
+    c.normal_speed = dot(w.velocity, c.normal);
+    c.radius_i = c.radius_j = c.reduced_radius = w.radius;
+    c.reduced_mass = w.mass;
+    const double arm = w.radius - 0.5 * c.overlap;
+    // As LIGGGHTS has it: the spin of the surface, where between particles it is theirs.
+    c.relative_spin = (arm * inverse) * w.spin;
+    c.slip = w.velocity - c.normal_speed * c.normal - cross(c.relative_spin, w.separation);
+
+    NormalForce normal = Normal::force(k.normal, c);
+    Force f{.force = normal.force * c.normal, .torque = {}};
+    if constexpr (Cohesion::acts) {
+      const double pull = Cohesion::force_of_wall(k.cohesion, c);
+      f.force += pull * c.normal;
+      normal.force += k.cohesion.in_friction * pull;
+    }
+    if constexpr (Tangential::acts) {
+      const Vec3 tangential = Tangential::force(k.tangential, c, normal, dt, tangential_history);
+      f.force += tangential;
+      f.torque = -arm * cross(c.normal, tangential);
+    }
+    if constexpr (Rolling::acts)
+      f.torque -= Rolling::torque(k.rolling, c, normal, dt, rolling_history);
+    return f;
+  }
+};
+
+} // namespace granflux::particle_subset
