@@ -4,6 +4,7 @@
 
 import os
 import re
+import resource
 import statistics
 import subprocess
 import sys
@@ -24,16 +25,21 @@ class Run(NamedTuple):
     cpu: float  # s, user and system, of all processes of the run
 
 
+def children_seconds():
+    """Of processors, by all processes that were started and have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def measured_start(folder, program, *words, ranks=1, environment=ENVIRONMENT, wrapper=()):
     mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)]
     command = [*wrapper, *(mpirun if ranks > 1 else []), str(program), *words]
-    begin, before = time.monotonic(), os.times()
+    begin, before = time.monotonic(), children_seconds()
     done = subprocess.run(command, cwd=folder, env=environment, text=True, capture_output=True)
-    wall, after = time.monotonic() - begin, os.times()
+    wall, cpu = time.monotonic() - begin, children_seconds() - before
     if done.returncode != 0:
         sys.exit(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return Run(done.stdout, wall, after.children_user + after.children_system -
-               before.children_user - before.children_system)
+    return Run(done.stdout, wall, cpu)
 
 
 def start(*args, **options):
