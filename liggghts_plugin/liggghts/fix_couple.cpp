@@ -30,6 +30,7 @@
 #include <granflux/coupling/read_coupling.hpp>
 
 #include "gas_box.hpp"
+#include "particle_subset/work_times.hpp"
 
 namespace granflux::liggghts {
 
@@ -339,6 +340,7 @@ void FixCouple::post_run() {
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fix[i] != this)
       times.other_fixes += modify->fix[i]->get_recorded_time();
+  times.other_fixes += particle_subset::work_times().walls; // on threads LIGGGHTS does not time them
   times.contacts = timer->array[TIME_PAIR];
   times.neighbour_lists = timer->array[TIME_NEIGHBOR];
   times.communication = timer->array[TIME_COMM];

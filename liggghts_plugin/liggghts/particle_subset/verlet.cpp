@@ -280,13 +280,15 @@ void Verlet::compute_forces() {
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fmask[i] & POST_FORCE) {
       LAMMPS_NS::Fix& fix = *modify->fix[i];
-      // A fix that the host times is called by itself.
-      OwnWork* part = modify->timing ? nullptr : dynamic_cast<OwnWork*>(&fix);
+      // The same way whether or not the host times its fixes: another would round otherwise. Our
+      // own are timed here.
+      OwnWork* part = dynamic_cast<OwnWork*>(&fix);
+      const bool timed_by_host = modify->timing && !part;
       add_part(part, is_wall(fix) ? times.walls : times.other_fixes, [&] {
-        if (modify->timing)
+        if (timed_by_host)
           fix.begin_time_recording();
         fix.post_force(vflag);
-        if (modify->timing)
+        if (timed_by_host)
           fix.end_time_recording();
       });
     }
