@@ -340,7 +340,8 @@ void FixCouple::post_run() {
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fix[i] != this)
       times.other_fixes += modify->fix[i]->get_recorded_time();
-  times.other_fixes += particle_subset::work_times().walls; // on threads LIGGGHTS does not time them
+  times.other_fixes +=
+      particle_subset::work_times().walls; // on threads LIGGGHTS does not time them
   times.contacts = timer->array[TIME_PAIR];
   times.neighbour_lists = timer->array[TIME_NEIGHBOR];
   times.communication = timer->array[TIME_COMM];
