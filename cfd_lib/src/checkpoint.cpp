@@ -11,6 +11,8 @@
 
 #include <granflux/cfd/error.hpp>
 
+#include "throw_alike.hpp"
+
 namespace granflux::cfd {
 
 namespace {
@@ -65,18 +67,6 @@ std::vector<std::uint64_t> identity(const GasSolver& gas) {
       words.push_back(std::uint64_t(n));
   }
   return words;
-}
-
-/// Throws on all ranks what rank 0 has to say, if anything.
-template <class Error> void throw_alike(MPI_Comm comm, const std::string& error) {
-  int length = int(error.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
-  if (length == 0)
-    return;
-  std::string text = error;
-  text.resize(std::size_t(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
-  throw Error(text);
 }
 
 class Writer {
@@ -199,7 +189,7 @@ std::vector<double> read_checkpoint(const std::string& path, GasSolver& gas) {
     } catch (const ConfigError& e) {
       error = e.what();
     }
-  throw_alike<ConfigError>(comm, error);
+  throw_alike(comm, error);
   int size = int(run.size());
   MPI_Bcast(&size, 1, MPI_INT, 0, comm);
   run.resize(std::size_t(size));

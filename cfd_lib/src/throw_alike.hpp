@@ -9,9 +9,9 @@
 
 namespace granflux::cfd {
 
-/// Throws ConfigError on all ranks with what the first of them has to say; nothing where none has
+/// Throws Error on all ranks with what the first of them has to say; nothing where none has
 /// an error. Collective.
-inline void throw_alike(MPI_Comm comm, const std::string& error) {
+template <class Error = ConfigError> void throw_alike(MPI_Comm comm, const std::string& error) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -24,7 +24,7 @@ inline void throw_alike(MPI_Comm comm, const std::string& error) {
   std::string text = error;
   text.resize(std::size_t(length));
   MPI_Bcast(text.data(), length, MPI_CHAR, first, comm);
-  throw ConfigError(text);
+  throw Error(text);
 }
 
 } // namespace granflux::cfd
