@@ -5,17 +5,14 @@
 #include <concepts>
 #include <string_view>
 
+#include <granflux/coupling/interval.hpp>
+
 namespace granflux::coupling {
 
 /// What a drag law sees: two dimensionless numbers.
 struct DragInput {
   double reynolds = 0;      ///< Re = rho eps |u - v| d / mu, with the superficial slip
   double void_fraction = 1; ///< eps, volume share of the gas
-};
-
-struct Interval {
-  double low = 0, high = 0; ///< both included
-  [[nodiscard]] constexpr bool contains(double x) const { return low <= x && x <= high; }
 };
 
 /// Where a law may be used: its source's data and the limits its form was built to meet. Laws do
