@@ -29,10 +29,13 @@ public:
 private:
   template <class Ordered> void add_rows(ContactRows& rows, Ordered ordered) {
     int count = 0;
+    const int last = int(rows.partner.size()) - 1;
     for (int row = 0; row < own_.size(); ++row) {
       const int end = rows.row_end(row);
       for (int e = rows.row_begin(row); e < end; ++e) {
-        const auto [i, j] = ordered(own_.begin + row, rows.partner[std::size_t(e)]);
+        prefetch_place(rows.partner[std::size_t(std::min(e + ahead, last))]);
+        const int partner = rows.partner[std::size_t(e)];
+        const auto [i, j] = ordered(own_.begin + row, partner);
         const Vec3 separation = p_.position[i] - p_.position[j];
         const double squared = dot(separation, separation);
         const double radii = p_.radius[i] + p_.radius[j];
@@ -41,7 +44,7 @@ private:
         batch_.entry[count] = e;
         batch_.separation.set(count, separation);
         batch_.distance_squared[count] = squared;
-        prefetch(j);
+        prefetch(rows, e, partner);
         // Overwritten by the next pair unless this one touches.
         count += squared < radii * radii;
         if (count == ContactBatch::capacity) {
@@ -53,10 +56,21 @@ private:
     finish(rows, count);
   }
 
-  /// What gather and scatter will want of a partner comes from far while other pairs are measured.
-  void prefetch(int p) const {
+  /// Entries from the fetching of a partner's place to its use: the time of a line from memory.
+  static constexpr int ahead = 16;
+
+  void prefetch_place(int partner) const {
+    __builtin_prefetch(p_.position + partner);
+    __builtin_prefetch(p_.radius + partner);
+  }
+
+  /// What gather and scatter will want of a pair comes from far while other pairs are measured.
+  void prefetch(const ContactRows& rows, int e, int p) const {
     __builtin_prefetch(p_.velocity + p);
+    __builtin_prefetch(p_.mass + p);
     __builtin_prefetch(p_.force + p, 1);
+    if constexpr (Law::history > 0)
+      __builtin_prefetch(&rows.history[std::size_t(e) * Law::history], 1);
     if constexpr (Law::turns) {
       __builtin_prefetch(p_.spin + p);
       __builtin_prefetch(p_.torque + p, 1);
