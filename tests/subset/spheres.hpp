@@ -103,6 +103,27 @@ public:
       kernel_->add(all, lists_.of(thread), dt);
   }
 
+  /// The same block after block, forces of the last step taken off no sooner than they are added
+  /// to.
+  void forces_in_blocks(Spheres& s, double dt) {
+    const Particles all = s.view();
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+    for (int thread = 0; thread < threads_; ++thread) {
+      ThreadContacts& mine = lists_.of(thread);
+      int cleared = mine.own.begin;
+      const auto clear_up_to = [&](int end) {
+        for (; cleared < end; ++cleared)
+          all.force[cleared] = all.torque[cleared] = {};
+      };
+      clear_up_to(mine.reach_of_lower());
+      kernel_->add_lower(all, mine, dt);
+      for_each_block(mine.own, [&](Range block) {
+        clear_up_to(mine.reach_of_block(block));
+        kernel_->add_upper(all, mine, block, dt);
+      });
+    }
+  }
+
   [[nodiscard]] ContactLists& lists() {
     return lists_;
   }

@@ -111,6 +111,25 @@ TEST(ContactLists, ForcesAreTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
+TEST(ContactLists, BlockAfterBlockGivesTheSameBits) {
+  for (const int threads : {1, 2}) {
+    Spheres whole = heap(18, 1.9e-3);
+    ASSERT_GT(whole.count() / threads, Subset::block);
+    Spheres blocks = whole;
+    Contacts one(all_laws, two_types(), 2, threads), other(all_laws, two_types(), 2, threads);
+    one.build(whole, skin);
+    other.build(blocks, skin);
+    for (int step = 0; step < 3; ++step) {
+      one.forces(whole, dt);
+      other.forces_in_blocks(blocks, dt);
+      move(whole);
+      move(blocks);
+    }
+    EXPECT_EQ(whole.force, blocks.force) << threads;
+    EXPECT_EQ(whole.torque, blocks.torque) << threads;
+  }
+}
+
 TEST(ContactLists, MemoryOutlivesTheLists) {
   // Nothing parts within the steps, so that lists built often forget no more than one built once.
   for (const int threads : {1, 3}) {

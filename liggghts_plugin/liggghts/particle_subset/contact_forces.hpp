@@ -16,21 +16,27 @@ public:
   using Constants = typename Law::Constants;
 
   /// `constants`: of each pair of the `types` types.
-  ContactForces(const Particles& particles, const Constants* constants, int types, double dt)
-      : p_(particles), constants_(constants), types_(types), dt_(dt),
-        batch_constants_(constants[0]) {}
+  ContactForces(const Particles& particles, ThreadContacts& contacts, const Constants* constants,
+                int types, double dt)
+      : p_(particles), contacts_(contacts), constants_(constants), types_(types), dt_(dt),
+        own_(contacts.own), batch_constants_(constants[0]) {}
 
-  void add(ThreadContacts& contacts) {
-    own_ = contacts.own;
-    add_rows(contacts.lower, [](int own, int partner) { return std::pair(partner, own); });
-    add_rows(contacts.upper, [](int own, int partner) { return std::pair(own, partner); });
+  /// Along the lower rows, all of them.
+  void add_lower() {
+    add_rows(contacts_.lower, own_, [](int own, int partner) { return std::pair(partner, own); });
+  }
+  /// Along the upper rows of some of the particles.
+  void add_upper(Range particles) {
+    add_rows(contacts_.upper, particles,
+             [](int own, int partner) { return std::pair(own, partner); });
   }
 
 private:
-  template <class Ordered> void add_rows(ContactRows& rows, Ordered ordered) {
+  template <class Ordered> void add_rows(ContactRows& rows, Range particles, Ordered ordered) {
     int count = 0;
     const int last = int(rows.partner.size()) - 1;
-    for (int row = 0; row < own_.size(); ++row) {
+    const int end_row = particles.end - own_.begin;
+    for (int row = particles.begin - own_.begin; row < end_row; ++row) {
       const int end = rows.row_end(row);
       for (int e = rows.row_begin(row); e < end; ++e) {
         prefetch_place(rows.partner[std::size_t(std::min(e + ahead, last))]);
@@ -194,10 +200,11 @@ private:
   }
 
   const Particles p_;
+  ThreadContacts& contacts_;
   const Constants* constants_;
   int types_;
   double dt_;
-  Range own_;
+  const Range own_;
   ContactBatch batch_{};
   BatchConstants<Law, one_material> batch_constants_;
 };

@@ -24,8 +24,15 @@ public:
   /// The constants of each pair of `types` types: before a run.
   virtual void read(const Material& material, int types) = 0;
   /// Adds the forces and torques on the particles of one thread, and brings its histories to the
-  /// end of the step of `dt` seconds. Called by each thread for its own contacts.
-  virtual void add(const Particles& particles, ThreadContacts& contacts, double dt) const = 0;
+  /// end of the step of `dt` seconds. Called by each thread for its own contacts: those with lower
+  /// particles of other threads first, then its own rows, in one go or block after block.
+  virtual void add_lower(const Particles& particles, ThreadContacts& contacts, double dt) const = 0;
+  virtual void add_upper(const Particles& particles, ThreadContacts& contacts, Range block,
+                         double dt) const = 0;
+  void add(const Particles& particles, ThreadContacts& contacts, double dt) const {
+    add_lower(particles, contacts, dt);
+    add_upper(particles, contacts, contacts.own, dt);
+  }
 };
 
 /// Null where one of the names is of no law here; says in `unknown` which.

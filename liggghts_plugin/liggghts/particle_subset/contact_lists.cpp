@@ -79,7 +79,25 @@ void ContactLists::build(const Particles& particles, double skin, int threads, i
     ThreadContacts& mine = of(thread);
     mine.own = subset_.of(thread);
     build_rows(particles, skin, excluded, kept, mine);
+    find_reach(mine);
   }
+}
+
+void ContactLists::find_reach(ThreadContacts& contacts) {
+  const Range own = contacts.own;
+  int reach = own.begin;
+  for (int row = own.size() - 1; row >= 0 && reach == own.begin; --row)
+    if (contacts.lower.row_begin(row) < contacts.lower.row_end(row))
+      reach = own.begin + row + 1;
+  contacts.reach.assign(1, reach);
+  for_each_block(own, [&](Range block) {
+    reach = std::max(reach, block.end);
+    const int end = contacts.upper.row_begin(block.end - own.begin);
+    for (int e = contacts.upper.row_begin(block.begin - own.begin); e < end; ++e)
+      if (const int partner = contacts.upper.partner[std::size_t(e)]; own.holds(partner))
+        reach = std::max(reach, partner + 1);
+    contacts.reach.push_back(reach);
+  });
 }
 
 /// The particles near to i that are above it or below its thread's range, in the order of the

@@ -28,6 +28,14 @@ struct ThreadContacts {
   Range own;
   ContactRows lower; ///< row j: partners of own j below own.begin, ascending: other threads'
   ContactRows upper; ///< row i: partners of own i above i: its own, other threads', ghosts
+  /// End of the own particles that forces are added to by the lower rows, and by them and the upper
+  /// rows of the first 1, 2 ... blocks.
+  std::vector<int> reach;
+
+  [[nodiscard]] int reach_of_lower() const { return reach.front(); }
+  [[nodiscard]] int reach_of_block(Range block) const {
+    return reach[std::size_t((block.end - own.begin + Subset::block - 1) / Subset::block)];
+  }
 };
 
 /// What each particle remembers of its contacts while pairs are not in lists: as the host keeps it
@@ -71,6 +79,7 @@ private:
                   const PartnerHistory& kept, ThreadContacts& contacts) const;
   int find_partners(const Particles& particles, double skin, Range own, int i,
                     std::vector<int>& found) const;
+  static void find_reach(ThreadContacts& contacts);
 
   struct Kept {
     std::vector<int> partner;

@@ -29,12 +29,17 @@ bool FixGravity::begin_own_work(int /*eflag*/, int /*vflag*/) {
   return true;
 }
 
-void FixGravity::own_work(int /*thread*/, Range own) {
+void FixGravity::own_work(int /*thread*/, Range block) {
+  if (block.size() == 0)
+    return;
   const double acceleration[3] = {xacc, yacc, zacc};
-  for (int i = own.begin; i < own.end; ++i)
-    if (atom->mask[i] & groupbit)
+  const int* const mask = atom->mask;
+  const double* const mass = atom->rmass;
+  double* const sums = atom->f[0];
+  for (int i = block.begin; i < block.end; ++i)
+    if (mask[i] & groupbit)
       for (int d = 0; d < 3; ++d)
-        atom->f[i][d] += atom->rmass[i] * acceleration[d];
+        sums[3 * i + d] += mass[i] * acceleration[d];
 }
 
 void FixGravity::post_force(int vflag) {

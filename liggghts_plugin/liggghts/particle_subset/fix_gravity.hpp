@@ -19,7 +19,7 @@ public:
   double compute_scalar() override;
 
   bool begin_own_work(int eflag, int vflag) override;
-  void own_work(int thread, Range own) override;
+  void own_work(int thread, Range block) override;
 
 private:
   bool energy_due_ = false;

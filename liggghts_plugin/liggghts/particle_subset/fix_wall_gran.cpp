@@ -202,18 +202,18 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
   return true;
 }
 
-void FixWallGran::own_work(int /*thread*/, Range own) {
+void FixWallGran::own_work(int /*thread*/, Range block) {
   if (store_force_)
-    for (int i = own.begin; i < own.end; ++i)
+    for (int i = block.begin; i < block.end; ++i)
       std::fill_n(fix_wallforce_->array_atom[i], 3, 0.0);
   if (meshwall_ == 1)
     for (Mesh& mesh : meshes_)
-      touch_mesh(mesh, own);
+      touch_mesh(mesh, block);
   else
-    touch_primitive(own);
+    touch_primitive(block);
 }
 
-void FixWallGran::touch_primitive(Range own) {
+void FixWallGran::touch_primitive(Range block) {
   double wall_velocity[3] = {0, 0, 0};
   if (shear_)
     wall_velocity[shearDim_] = vshear_;
@@ -221,8 +221,8 @@ void FixWallGran::touch_primitive(Range own) {
   int* first = nullptr;
   const int count = primitiveWall_->getNeighbors(first);
   const std::span<const int> near(first, std::size_t(count)); // ascending
-  for (auto p = std::lower_bound(near.begin(), near.end(), own.begin);
-       p != near.end() && *p < own.end; ++p)
+  for (auto p = std::lower_bound(near.begin(), near.end(), block.begin);
+       p != near.end() && *p < block.end; ++p)
     if (atom->mask[*p] & groupbit)
       touch_primitive(*p, wall_velocity, batch);
 }
@@ -276,19 +276,19 @@ void FixWallGran::begin_mesh(int number) {
   mesh.forces.assign(sums ? mesh.pairs.triangle.size() : 0, {});
 }
 
-void FixWallGran::touch_mesh(Mesh& mesh, Range own) {
+void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
   Batch batch(*this, mesh.wall_type);
   const WallPairs& pairs = mesh.pairs;
-  const auto first = std::lower_bound(pairs.particle.begin(), pairs.particle.end(), own.begin);
+  const auto first = std::lower_bound(pairs.particle.begin(), pairs.particle.end(), block.begin);
   for (auto row = std::size_t(first - pairs.particle.begin());
-       row < pairs.particle.size() && pairs.particle[row] < own.end; ++row)
+       row < pairs.particle.size() && pairs.particle[row] < block.end; ++row)
     for (auto pair = std::size_t(pairs.begin[row]); pair < std::size_t(pairs.begin[row + 1]);
          ++pair)
       touch_mesh(mesh, pairs.particle[row], pairs.triangle[pair],
                  mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])],
                  batch);
   if (mesh.history)
-    mesh.history->cleanUpContacts(own.begin, own.end);
+    mesh.history->cleanUpContacts(block.begin, block.end);
 }
 
 void FixWallGran::sum_on_mesh(Mesh& mesh) {

@@ -32,7 +32,7 @@ public:
   void pre_neighbor() override;
 
   bool begin_own_work(int eflag, int vflag) override;
-  void own_work(int thread, Range own) override;
+  void own_work(int thread, Range block) override;
   void end_own_work() override;
 
 protected:
@@ -59,11 +59,11 @@ private:
 
   [[nodiscard]] bool kernel_suits() const;
   [[nodiscard]] bool all_of_one_type() const;
-  void touch_primitive(Range own);
+  void touch_primitive(Range block);
   void touch_primitive(int particle, const double* wall_velocity, Batch& batch);
   void begin_mesh(int number);
   void sum_on_mesh(Mesh& mesh);
-  void touch_mesh(Mesh& mesh, Range own);
+  void touch_mesh(Mesh& mesh, Range block);
   void touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh, Batch& batch);
   void touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle, ForceOnMesh* on_mesh);
 

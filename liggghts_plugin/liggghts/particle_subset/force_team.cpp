@@ -9,24 +9,37 @@
 
 namespace granflux::particle_subset {
 
+void ForceTeam::work_through(int thread, Range own, auto&& after) {
+  for (const Part& part : parts_) {
+    part.work->start_own_work(thread, own);
+    after(part);
+  }
+  for_each_block(own, [&](Range block) {
+    for (const Part& part : parts_) {
+      part.work->own_work(thread, block);
+      after(part);
+    }
+  });
+}
+
 void ForceTeam::work(int owned, double& waiting) {
   if (parts_.empty())
     return;
   const Subset subset(owned, omp_get_max_threads());
-  double done = 0;
+  double done = MPI_Wtime();
+  const auto time_since_last = [&done](const Part& part) {
+    const double now = MPI_Wtime();
+    *part.seconds += now - done;
+    done = now;
+  };
+  const auto untimed = [](const Part&) {};
 #pragma omp parallel num_threads(subset.threads())
   {
     const int thread = omp_get_thread_num();
-    if (thread == 0) {
-      for (const Part& part : parts_) {
-        const Lap lap(*part.seconds);
-        part.work->own_work(thread, subset.of(thread));
-      }
-      done = MPI_Wtime();
-    } else {
-      for (const Part& part : parts_)
-        part.work->own_work(thread, subset.of(thread));
-    }
+    if (thread == 0)
+      work_through(thread, subset.of(thread), time_since_last);
+    else
+      work_through(thread, subset.of(thread), untimed);
   }
   waiting += MPI_Wtime() - done;
   for (const Part& part : parts_) {

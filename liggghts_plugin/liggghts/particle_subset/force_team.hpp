@@ -8,7 +8,8 @@
 
 namespace granflux::particle_subset {
 
-/// Gathers parts of the forces and does them one after the other in one go of all threads.
+/// Gathers parts of the forces and does them in one go of all threads, block of particles after
+/// block.
 class ForceTeam {
 public:
   /// `seconds`: what the time of the first thread is added to.
@@ -22,6 +23,8 @@ private:
     OwnWork* work;
     double* seconds;
   };
+  void work_through(int thread, Range own, auto&& after);
+
   std::vector<Part> parts_;
 };
 

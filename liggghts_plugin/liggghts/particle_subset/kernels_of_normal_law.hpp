@@ -26,14 +26,28 @@ public:
         constants_.push_back(Law::constants(material, a, b));
   }
 
-  void add(const Particles& particles, ThreadContacts& contacts, double dt) const override {
-    if (types_ == 1)
-      ContactForces<Law, true>(particles, constants_.data(), types_, dt).add(contacts);
-    else
-      ContactForces<Law, false>(particles, constants_.data(), types_, dt).add(contacts);
+  void add_lower(const Particles& particles, ThreadContacts& contacts, double dt) const override {
+    if (!contacts.lower.partner.empty())
+      with_forces(particles, contacts, dt, [](auto& forces) { forces.add_lower(); });
+  }
+
+  void add_upper(const Particles& particles, ThreadContacts& contacts, Range block,
+                 double dt) const override {
+    with_forces(particles, contacts, dt, [&](auto& forces) { forces.add_upper(block); });
   }
 
 private:
+  void with_forces(const Particles& particles, ThreadContacts& contacts, double dt,
+                   auto&& work) const {
+    if (types_ == 1) {
+      ContactForces<Law, true> forces(particles, contacts, constants_.data(), types_, dt);
+      work(forces);
+    } else {
+      ContactForces<Law, false> forces(particles, contacts, constants_.data(), types_, dt);
+      work(forces);
+    }
+  }
+
   int types_ = 0;
   std::vector<typename Law::Constants> constants_;
 };

@@ -13,8 +13,13 @@ public:
   /// What one thread has to do before; looks at no forces. False: not in this step, which asks for
   /// more than forces: the host's own call is to be made.
   virtual bool begin_own_work(int eflag, int vflag) = 0;
-  /// On each thread, with its share of the rank's particles.
-  virtual void own_work(int thread, Range own) = 0;
+  /// On each thread, with its share of the rank's particles: what must be done before any of it is
+  /// gone through.
+  virtual void start_own_work(int /*thread*/, Range /*own*/) {}
+  /// On each thread, for one block of its share after the other, ascending: all parts work on a
+  /// block while it is in the cache. Adds to particles of the block; contacts, whose reach is known
+  /// to those who clear forces, to later ones of the share too.
+  virtual void own_work(int thread, Range block) = 0;
   /// What one thread has to do afterwards.
   virtual void end_own_work() {}
 

@@ -159,8 +159,12 @@ bool PairGran::begin_own_work(int eflag, int vflag) {
   return true;
 }
 
-void PairGran::own_work(int thread, Range /*own*/) {
-  kernel_->add(particles(), lists_.of(thread), update->dt);
+void PairGran::start_own_work(int thread, Range /*own*/) {
+  kernel_->add_lower(particles(), lists_.of(thread), update->dt);
+}
+
+void PairGran::own_work(int thread, Range block) {
+  kernel_->add_upper(particles(), lists_.of(thread), block, update->dt);
 }
 
 void PairGran::build_lists_if_old() {

@@ -33,7 +33,9 @@ public:
 
   /// Forces alone, in a step: what compute() does.
   bool begin_own_work(int eflag, int vflag) override;
-  void own_work(int thread, Range own) override;
+  void start_own_work(int thread, Range own) override;
+  void own_work(int thread, Range block) override;
+  [[nodiscard]] const ThreadContacts& contacts_of(int thread) const { return lists_.of(thread); }
 
   /// Whether contacts are remembered in the lists here, not in LIGGGHTS' own.
   [[nodiscard]] bool holds_history() const { return by_subset_; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace granflux::particle_subset {
@@ -21,6 +22,9 @@ struct Range {
 class Subset {
 public:
   static constexpr int line = 8;
+  /// Particles that several passes go over together: what they touch of so many stays in the
+  /// second-level cache.
+  static constexpr int block = 2048;
 
   Subset(int count, int threads) : count_(count), threads_(threads) {}
 
@@ -39,5 +43,11 @@ private:
 
   int count_, threads_;
 };
+
+/// Calls visit(block) for the blocks of a range one after the other.
+template <class Visit> void for_each_block(Range range, Visit&& visit) {
+  for (int begin = range.begin; begin < range.end; begin += Subset::block)
+    visit(Range{begin, std::min(begin + Subset::block, range.end)});
+}
 
 } // namespace granflux::particle_subset

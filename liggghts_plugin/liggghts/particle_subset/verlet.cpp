@@ -25,6 +25,7 @@
 
 #include "fix_nve_sphere.hpp"
 #include "neighbor.hpp"
+#include "pair_gran.hpp"
 #include "team.hpp"
 #include "work_times.hpp"
 
@@ -234,18 +235,31 @@ void Verlet::exchange_and_build_lists(bigint now) {
 
 bool Verlet::ClearForces::begin_own_work(int /*eflag*/, int /*vflag*/) {
   clear(atom, {.begin = atom->nlocal, .end = atom->nlocal + atom->nghost});
+  cleared_.resize(std::size_t(omp_get_max_threads()));
+  contacts = nullptr;
   return true;
 }
 
-void Verlet::ClearForces::own_work(int /*thread*/, Range own) {
-  clear(atom, own);
+void Verlet::ClearForces::start_own_work(int thread, Range own) {
+  const int end = contacts ? contacts->contacts_of(thread).reach_of_lower() : own.end;
+  clear(atom, {own.begin, end});
+  cleared_[std::size_t(thread)].end = end;
+}
+
+void Verlet::ClearForces::own_work(int thread, Range block) {
+  if (!contacts)
+    return;
+  int& cleared = cleared_[std::size_t(thread)].end;
+  const int end = contacts->contacts_of(thread).reach_of_block(block);
+  clear(atom, {cleared, end});
+  cleared = end;
 }
 
 void Verlet::finish_team() {
   team_.work(atom->nlocal, work_times().waiting);
 }
 
-void Verlet::add_part(OwnWork* part, double& seconds, auto&& otherwise) {
+bool Verlet::add_part(OwnWork* part, double& seconds, auto&& otherwise) {
   bool begun = false;
   if (part) {
     const Lap lap(seconds);
@@ -253,11 +267,12 @@ void Verlet::add_part(OwnWork* part, double& seconds, auto&& otherwise) {
   }
   if (begun) {
     team_.add(*part, seconds);
-    return;
+    return true;
   }
   finish_team();
   const Lap lap(seconds);
   otherwise();
+  return false;
 }
 
 void Verlet::compute_forces() {
@@ -273,8 +288,9 @@ void Verlet::compute_forces() {
   const double contacts_before = times.contacts;
   if (pair_compute_flag) {
     const double lists_before = times.contact_lists;
-    add_part(dynamic_cast<OwnWork*>(force->pair), times.contacts,
-             [&] { force->pair->compute(eflag, vflag); });
+    auto* own = dynamic_cast<PairGran*>(force->pair);
+    if (add_part(own, times.contacts, [&] { force->pair->compute(eflag, vflag); }))
+      clear_.contacts = own;
     times.contacts -= times.contact_lists - lists_before;
   }
   for (int i = 0; i < modify->nfix; ++i)

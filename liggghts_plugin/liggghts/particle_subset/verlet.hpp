@@ -13,6 +13,7 @@
 namespace granflux::particle_subset {
 
 class FixNveSphere;
+class PairGran;
 
 /// LIGGGHTS' time step: the calls to fixes, pair style, communication and output in the order and
 /// under the conditions of run_style verlet. Forces are cleared by the thread that owns them, and
@@ -29,7 +30,7 @@ private:
   void run_steps(int steps);
   void exchange_and_build_lists(LAMMPS_NS::bigint now);
   void compute_forces();
-  void add_part(OwnWork* part, double& seconds, auto&& otherwise);
+  bool add_part(OwnWork* part, double& seconds, auto&& otherwise);
   void finish_team();
   [[nodiscard]] bool lists_have_aged();
   void report();
@@ -42,11 +43,20 @@ private:
   WorkLoad load_; // sums over the steps of a run
   ForceTeam team_;
 
-  /// Takes the forces of the last step off.
+  /// Takes the forces of the last step off, where contacts are in the team no earlier than they
+  /// are added to: they are then written once while they are in the cache.
   struct ClearForces final : OwnWork {
     LAMMPS_NS::Atom* atom = nullptr;
+    const PairGran* contacts = nullptr; // in the same go of the team
     bool begin_own_work(int eflag, int vflag) override;
-    void own_work(int thread, Range own) override;
+    void start_own_work(int thread, Range own) override;
+    void own_work(int thread, Range block) override;
+
+  private:
+    struct alignas(64) Cleared {
+      int end;
+    };
+    std::vector<Cleared> cleared_; // of each thread
   } clear_;
 };
 
