@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include <granflux/cfd/deal_blocks.hpp>
 
 namespace granflux::cfd {
@@ -26,16 +28,28 @@ void read_uniform_box(const CaseTable& table, BoxGrid& grid) {
     grid.nodes[std::size_t(d)] = uniform_nodes(origin[d], size[d], cells[std::size_t(d)]);
 }
 
+std::vector<double> read_nodes(const CaseTable& table, const std::string& key, NumberRange range,
+                               std::string_view unit) {
+  std::vector<double> nodes = table.numbers(key, 2, range, unit);
+  if (!std::is_sorted(nodes.begin(), nodes.end(), std::less_equal<>()))
+    table.fail(key, fmt::format("node coordinates that increase from each to the next ({})", unit));
+  return nodes;
+}
+
+/// As many nodes as a number of cells has.
+std::vector<double> read_nodes(const CaseTable& table, const std::string& key, int cells,
+                               NumberRange range, std::string_view unit) {
+  std::vector<double> nodes = read_nodes(table, key, range, unit);
+  if (nodes.size() != std::size_t(cells) + 1)
+    table.fail(key, fmt::format("{} numbers, one more than cells", cells + 1));
+  return nodes;
+}
+
 void read_stretched_box(const CaseTable& table, BoxGrid& grid) {
   for (const char* key : {"origin", "size", "cells"})
     table.refuse(key, "nodes_x, nodes_y and nodes_z take its place");
-  for (std::size_t d = 0; d < 3; ++d) {
-    const std::string key = std::string("nodes_") + axis_names[d];
-    grid.nodes[d] = table.numbers(key, 2, any_number, "m");
-    const auto& nodes = grid.nodes[d];
-    if (!std::is_sorted(nodes.begin(), nodes.end(), std::less_equal<>()))
-      table.fail(key, "node coordinates that increase from each to the next (m)");
-  }
+  for (std::size_t d = 0; d < 3; ++d)
+    grid.nodes[d] = read_nodes(table, std::string("nodes_") + axis_names[d], any_number, "m");
 }
 
 BoxGrid read_box(const CaseTable& table) {
@@ -68,22 +82,34 @@ AxialFrame read_frame(const CaseTable& table) {
 AnnulusGrid read_annulus(const CaseTable& table) {
   AnnulusGrid grid;
   grid.frame = read_frame(table);
-  grid.inner_radius = table.number("inner_radius", positive, "m");
-  grid.outer_radius = table.number("outer_radius", positive, "m");
-  if (grid.outer_radius <= grid.inner_radius)
-    table.fail("outer_radius", "larger than inner_radius (m)");
   grid.length = table.number("length", positive, "m");
+  grid.periodic_axis = table.flag("periodic_axis", false);
   const Index3 cells = table.integers("cells", 1, most_cells);
   if (cell_count(cells) > most_cells_in_all)
     table.fail("cells", too_many);
   grid.radial = cells[0], grid.tangential = cells[1], grid.axial = cells[2];
-  grid.start_angle = table.number("start_angle", grid.start_angle, any_number, "degrees");
-  grid.sweep =
-      table.number("sweep", grid.sweep, {.low = 0, .high = 360, .low_included = false}, "degrees");
-  if (grid.sweep >= 120. * grid.tangential)
-    table.fail("cells", "more around: a cell must span less than 120 degrees");
-  grid.growth = table.number("growth", grid.growth, positive, "");
-  grid.periodic_axis = table.flag("periodic_axis", false);
+  if (table.has("nodes_radius")) {
+    for (const char* key : {"inner_radius", "outer_radius", "growth"})
+      table.refuse(key, "nodes_radius takes its place");
+    grid.radii = read_nodes(table, "nodes_radius", cells[0], positive, "m");
+  } else {
+    grid.inner_radius = table.number("inner_radius", positive, "m");
+    grid.outer_radius = table.number("outer_radius", positive, "m");
+    if (grid.outer_radius <= grid.inner_radius)
+      table.fail("outer_radius", "larger than inner_radius (m)");
+    grid.growth = table.number("growth", grid.growth, positive, "");
+  }
+  if (table.has("nodes_angle")) {
+    for (const char* key : {"start_angle", "sweep"})
+      table.refuse(key, "nodes_angle takes its place");
+    grid.angles = read_nodes(table, "nodes_angle", cells[1], any_number, "degrees");
+  } else {
+    grid.start_angle = table.number("start_angle", grid.start_angle, any_number, "degrees");
+    grid.sweep = table.number("sweep", grid.sweep, {.low = 0, .high = 360, .low_included = false},
+                              "degrees");
+    if (grid.sweep >= 120. * grid.tangential)
+      table.fail("cells", "more around: a cell must span less than 120 degrees");
+  }
   return grid;
 }
 

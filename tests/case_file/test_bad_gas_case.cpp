@@ -177,6 +177,14 @@ const std::vector<RoundMistake> round_mistakes{
      "degrees"},
     {annulus_case, "growth = 1.1", "sweep = 400",
      "bed.toml: [grid] sweep = 400: must be a number > 0 and <= 360 (degrees)"},
+    {annulus_case, "growth = 1.1", "nodes_radius = [0.01, 0.02]",
+     "bed.toml: [grid] inner_radius = 0.01: not allowed: nodes_radius takes its place"},
+    {annulus_case, "start_angle = 15", "nodes_angle = [0, 90, 180, 270, 360]",
+     "bed.toml: [grid] nodes_angle = [0, 90, 180, 270, 360]: must be 25 numbers, one more than "
+     "cells"},
+    {annulus_case, "start_angle = 15", "nodes_angle = [0, 90, 80]",
+     "bed.toml: [grid] nodes_angle = [0, 90, 80]: must be node coordinates that increase from each "
+     "to the next (degrees)"},
     {annulus_case, "growth = 1.1", "size = [1, 1, 1]",
      "bed.toml: [grid] size (line 10): unknown key; "},
     {annulus_case, "angles = [15, 195]", "angles = [15, 10]",

@@ -127,6 +127,17 @@ TEST(ReadGasCase, TakesEveryKeyOfAnAnnulus) {
   const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.boundaries, (std::vector<std::string>{"inner", "above", "below"}));
 
+  const GasCase drawn = gas_case_of(
+      replaced(replaced(replaced(annulus_case, "inner_radius = 0.01\nouter_radius = 0.02",
+                                 "nodes_radius = [0.01, 0.011, 0.015, 0.02]"),
+                        "growth = 1.1\n", ""),
+               "cells = [4, 24, 2]\nstart_angle = 15",
+               "cells = [3, 4, 2]\nnodes_angle = [-180, -90, -15, 90, 180]"));
+  EXPECT_EQ(std::get<AnnulusGrid>(drawn.grid).radii,
+            (std::vector<double>{0.01, 0.011, 0.015, 0.02}));
+  EXPECT_EQ(std::get<AnnulusGrid>(drawn.grid).angles,
+            (std::vector<double>{-180, -90, -15, 90, 180}));
+
   const GasCase half = gas_case_of(replaced(annulus_case, "growth = 1.1", "sweep = 180"));
   EXPECT_EQ(std::get<AnnulusGrid>(half.grid).sweep, 180);
 }

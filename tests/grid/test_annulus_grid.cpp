@@ -81,6 +81,40 @@ TEST(AnnulusGrid, GrowthIsTheRatioOfWidths) {
     EXPECT_NEAR((radius(i + 1) - radius(i)) / (radius(i) - radius(i - 1)), 1.3, 1e-12);
 }
 
+TEST(AnnulusGrid, TakesNodesOneByOne) {
+  AnnulusGrid even = gap(), drawn = gap();
+  even.tangential = drawn.tangential = 4, even.start_angle = 45;
+  even.radial = drawn.radial = 3;
+  drawn.radii = {1, 1.5, 2, 2.5};
+  drawn.angles = {45, 135, 225, 315, 405};
+  const NodeMap a = make_annulus(even).blocks[0].node, b = make_annulus(drawn).blocks[0].node;
+  for (int i = 0; i <= 3; ++i)
+    for (int j = 0; j <= 4; ++j)
+      EXPECT_LT(norm(a(i, j, 1) - b(i, j, 1)), 1e-14) << i << ", " << j;
+
+  drawn.radii = {1, 1.1, 1.3, 4};
+  drawn.angles = {-170, -20, 10, 90, 190};
+  EXPECT_EQ(config_error([&] { (void)make_annulus(drawn); }),
+            "[grid] nodes_angle: -20 after -170: a cell must span less than 120 degrees");
+  drawn.tangential = 8;
+  drawn.angles = {-170, -130, -60, -20, 10, 50, 90, 140, 190};
+  drawn.arcs = {{"inflow", 90, 300}, {"outflow", -60, 90}};
+  const Grid grid = make_annulus(drawn);
+  EXPECT_EQ(expect_links_meet(grid), 2);
+  const Mesh mesh = make_mesh(grid, MPI_COMM_WORLD);
+  EXPECT_LT(largest_gap(mesh), 1e-14);
+  expect_ghosts_follow(mesh);
+  const auto chord = [](double degrees) { return 2 * 4 * std::sin(degrees * pi / 360) * 0.8; };
+  EXPECT_NEAR(boundary_area(mesh, "inflow"), chord(40) + chord(70) + 2 * chord(50), 1e-13);
+  EXPECT_NEAR(boundary_area(mesh, "outflow"), 3 * chord(40) + chord(30), 1e-13);
+
+  drawn.arcs.clear();
+  drawn.tangential = 4;
+  drawn.angles = {0, 20, 25, 60, 90};
+  EXPECT_EQ(make_mesh(make_annulus(drawn), MPI_COMM_WORLD).boundaries,
+            (std::vector<std::string>{"inner", "outer", "start", "end", "low", "high"}));
+}
+
 TEST(AnnulusGrid, ArcsDivideTheOuterCircle) {
   AnnulusGrid a = gap();
   a.tangential = 16;
@@ -136,4 +170,21 @@ TEST(AnnulusGrid, RefusesWhatIsNoAnnulus) {
             "[grid] cells = [5, 14, 0]: must be at least 1 each");
   EXPECT_EQ(refusal([](AnnulusGrid& a) { a.growth = 1e-9, a.radial = 20; }),
             "[grid] growth = 1e-09: with 20 cells the narrowest would have no width");
+  EXPECT_EQ(refusal([](AnnulusGrid& a) {
+              a.radii = {1, 2};
+            }),
+            "[grid] nodes_radius: 2 nodes for 5 cells: must be one more than cells");
+  EXPECT_EQ(refusal([](AnnulusGrid& a) {
+              a.radial = 2, a.radii = {1, 3, 2};
+            }),
+            "[grid] nodes_radius: 2 after 3: must increase from each to the next");
+  EXPECT_EQ(refusal([](AnnulusGrid& a) {
+              a.radial = 2, a.radii = {0, 1, 2};
+            }),
+            "[grid] nodes_radius: the first is 0: must be > 0 (m); a full cylinder is kind = "
+            "\"cylinder\"");
+  EXPECT_EQ(refusal([](AnnulusGrid& a) {
+              a.tangential = 4, a.angles = {0, 90, 180, 270, 361};
+            }),
+            "[grid] nodes_angle: from 0 to 361: must span at most 360 (degrees)");
 }

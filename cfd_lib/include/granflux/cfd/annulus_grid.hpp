@@ -31,6 +31,9 @@ struct AnnulusGrid {
   double growth = 1;          ///< width of a cell over that of the next one inwards
   bool periodic_axis = false; ///< low and high are connected
   std::vector<Arc> arcs;      ///< together they cover the outer circle; none: `outer`
+  /// Nodes one by one, increasing, one more than cells; if given, `radii` [m] take the place of
+  /// inner_radius, outer_radius and growth, `angles` [degrees] that of start_angle and sweep.
+  std::vector<double> radii, angles;
 };
 
 /// Throws ConfigError for radii, lengths, cells or angles that make no annulus, and for arcs that
