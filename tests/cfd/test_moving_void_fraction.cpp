@@ -76,13 +76,13 @@ std::array<double, 2> errors(int n, int steps, double source_factor = 1) {
 TEST(MovingVoidFraction, SecondOrderInSpaceAndTime) {
   const auto coarse = errors(32, 50), fine = errors(64, 100);
   EXPECT_LT(fine[0], 2e-4);
-  EXPECT_LT(fine[1], 5e-4);
+  EXPECT_LT(fine[1], 1e-4);
   EXPECT_GT(std::log2(coarse[0] / fine[0]), 1.9);
-  EXPECT_GT(std::log2(coarse[1] / fine[1]), 1.8);
+  EXPECT_GT(std::log2(coarse[1] / fine[1]), 1.9);
 }
 
 TEST(MovingVoidFraction, SeesAFivePercentErrorInTheSource) {
-  EXPECT_GT(errors(64, 100, 0.95)[1], 5e-4);
+  EXPECT_GT(errors(64, 100, 0.95)[1], 1e-4);
 }
 
 } // namespace

@@ -31,6 +31,20 @@ BoundaryCondition condition(const std::string& name, BoundaryKind kind, Vec3 vel
   return c;
 }
 
+CylinderGrid drum_grid() {
+  CylinderGrid cylinder;
+  cylinder.radius = 0.5, cylinder.length = 1;
+  cylinder.core = 4, cylinder.radial = 3, cylinder.axial = 6, cylinder.axial_blocks = 2;
+  return cylinder;
+}
+
+AnnulusGrid gap_grid() {
+  AnnulusGrid annulus;
+  annulus.inner_radius = 0.3, annulus.outer_radius = 0.7, annulus.length = 1;
+  annulus.radial = 4, annulus.tangential = 12, annulus.axial = 3, annulus.growth = 1.3;
+  return annulus;
+}
+
 /// How far a uniform flow is from uniform after some steps, with both time schemes.
 double unevenness(const Mesh& mesh, GasCase c, const Vec3& flow) {
   double worst = 0;
@@ -63,19 +77,45 @@ TEST(SkewedMesh, UniformFlowStaysUniform) {
   c.boundaries = {condition("wall", BoundaryKind::slip),
                   condition("low", BoundaryKind::inlet, {0, 0, 0.8}),
                   condition("high", BoundaryKind::outlet)};
-  CylinderGrid cylinder;
-  cylinder.radius = 0.5, cylinder.length = 1;
-  cylinder.core = 4, cylinder.radial = 3, cylinder.axial = 6, cylinder.axial_blocks = 2;
-  const Mesh drum = dealt(make_cylinder(cylinder));
+  const Mesh drum = dealt(make_cylinder(drum_grid()));
   EXPECT_LT(unevenness(drum, c, {0, 0, 0.8}), 1e-12);
 
   c.boundaries = {condition("inner", BoundaryKind::slip), condition("outer", BoundaryKind::slip)};
-  AnnulusGrid annulus;
-  annulus.inner_radius = 0.3, annulus.outer_radius = 0.7, annulus.length = 1;
-  annulus.radial = 4, annulus.tangential = 12, annulus.axial = 3, annulus.growth = 1.3;
+  AnnulusGrid annulus = gap_grid();
   annulus.periodic_axis = true;
   const Mesh gap = dealt(make_annulus(annulus));
   EXPECT_LT(unevenness(gap, c, {0, 0, 0.8}), 1e-12);
+}
+
+/// Aslant through every boundary: in on all sides but one, where the pressure is given.
+TEST(SkewedMesh, UniformFlowAslantStaysUniform) {
+  constexpr Vec3 flow{0.5, -0.3, 0.8};
+  const auto unevenness_of = [&](const Mesh& mesh) {
+    GasCase c;
+    for (const std::string& name : mesh.boundaries)
+      c.boundaries.push_back(
+          condition(name, name == "high" ? BoundaryKind::outlet : BoundaryKind::inlet, flow));
+    return unevenness(mesh, c, flow);
+  };
+  EXPECT_LT(unevenness_of(dealt(make_cylinder(drum_grid()))), 1e-12);
+  EXPECT_LT(unevenness_of(dealt(make_annulus(gap_grid()))), 1e-12);
+  AnnulusGrid drawn = gap_grid(); // nodes one by one
+  drawn.radii = {0.3, 0.34, 0.45, 0.5, 0.7};
+  drawn.angles = {-180, -150, -90, -50, -20, -10, 0, 10, 20, 60, 95, 130, 180};
+  EXPECT_LT(unevenness_of(dealt(make_annulus(drawn))), 1e-12);
+}
+
+TEST(SkewedMesh, UniformFlowStaysUniformOnABoxOfUnequalCells) {
+  GasCase c = box_case({5, 4, 6}, {1, 1, 1}, {false, true, false});
+  box_grid(c).nodes[0] = {0, 0.1, 0.15, 0.5, 0.8, 1};
+  box_grid(c).nodes[2] = {0, 0.3, 0.35, 0.4, 0.7, 0.95, 1};
+  constexpr Vec3 flow{0.5, -0.3, 0.8};
+  for (BoundaryCondition& b : c.boundaries) {
+    b.kind = b.name == "z_high" ? BoundaryKind::outlet : BoundaryKind::inlet;
+    b.velocity = flow;
+  }
+  const Mesh mesh = make_mesh(c, MPI_COMM_WORLD);
+  EXPECT_LT(unevenness(mesh, c, flow), 1e-12);
 }
 
 struct Errors {

@@ -54,10 +54,11 @@ std::array<double, 2> errors(int n, int steps, ConvectionScheme scheme, double v
 
 TEST(TaylorGreen, SecondOrderInSpaceAndTime) {
   for (const auto scheme : {ConvectionScheme::central, ConvectionScheme::upwind2}) {
-    const auto coarse = errors(32, 20, scheme), fine = errors(64, 40, scheme);
-    EXPECT_LT(fine[0], 3e-3);
+    const auto coarse = errors(48, 30, scheme), fine = errors(96, 60, scheme);
+    EXPECT_LT(fine[0], 2e-4);
+    EXPECT_LT(fine[1], 1.5e-3);
     EXPECT_GT(std::log2(coarse[0] / fine[0]), 1.9);
-    EXPECT_GT(std::log2(coarse[1] / fine[1]), 1.8);
+    EXPECT_GT(std::log2(coarse[1] / fine[1]), 1.9);
   }
 }
 
