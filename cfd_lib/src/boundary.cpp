@@ -186,20 +186,18 @@ void Boundaries::fill_velocity(BlockVectors& velocity, const BlockFields& void_f
   }
 }
 
-void Boundaries::fill_velocity_correction(BlockFields& correction, int m) const {
-  for (const BoundaryPatch& patch : patches_) {
-    const auto b = std::size_t(patch.block);
-    const BoundaryKind kind = condition(patch).kind;
-    for (const BoundaryFace& face : patch.faces) {
-      double factor = 1;
-      if (kind == BoundaryKind::inlet || kind == BoundaryKind::wall)
-        factor = -1;
-      else if (kind == BoundaryKind::slip) {
-        const double n = unit_normal(mesh_.local[b], patch, face)[m];
-        factor = 1 - 2 * n * n;
-      }
-      correction[b][face.ghost] = factor * correction[b][face.cell];
-    }
+double Boundaries::velocity_ghost_factor(const BoundaryPatch& patch, const BoundaryFace& face,
+                                         int m) const {
+  switch (condition(patch).kind) {
+  case BoundaryKind::inlet:
+  case BoundaryKind::wall:
+    return -1;
+  case BoundaryKind::slip: {
+    const double n = unit_normal(mesh_.local[std::size_t(patch.block)], patch, face)[m];
+    return 1 - 2 * n * n;
+  }
+  default:
+    return 1;
   }
 }
 
@@ -263,13 +261,8 @@ void Boundaries::fill_temperature(BlockFields& temperature,
   }
 }
 
-void Boundaries::fill_temperature_correction(BlockFields& correction) const {
-  for (const BoundaryPatch& patch : patches_) {
-    Field& q = correction[std::size_t(patch.block)];
-    const bool given = condition(patch).heat == BoundaryCondition::Heat::temperature;
-    for (const BoundaryFace& face : patch.faces)
-      q[face.ghost] = given ? -q[face.cell] : q[face.cell];
-  }
+double Boundaries::temperature_ghost_factor(const BoundaryPatch& patch) const {
+  return condition(patch).heat == BoundaryCondition::Heat::temperature ? -1 : 1;
 }
 
 void Boundaries::fill_zero_gradient(BlockFields& field) const {

@@ -8,29 +8,9 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/row_sweep.hpp>
 
+#include "multigrid_level.hpp"
+
 namespace granflux::cfd {
-
-namespace {
-
-/// diffusion(q) of one block.
-struct Diffusion {
-  Diffusion(const Layout& layout, const std::array<Field, 3>& conductance)
-      : gi(conductance[0].data()), gj(conductance[1].data()), gk(conductance[2].data()),
-        sj(layout.stride[1]), sk(layout.stride[2]) {}
-  double operator()(const double* q, std::ptrdiff_t c) const {
-    const double here = q[c];
-    return gi[c + 1] * (q[c + 1] - here) - gi[c] * (here - q[c - 1]) +
-           gj[c + sj] * (q[c + sj] - here) - gj[c] * (here - q[c - sj]) +
-           gk[c + sk] * (q[c + sk] - here) - gk[c] * (here - q[c - sk]);
-  }
-  [[nodiscard]] double faces(std::ptrdiff_t c) const {
-    return gi[c] + gi[c + 1] + gj[c] + gj[c + sj] + gk[c] + gk[c + sk];
-  }
-  const double *gi, *gj, *gk;
-  std::ptrdiff_t sj, sk;
-};
-
-} // namespace
 
 void diffusion(const Layout& layout, const std::array<Field, 3>& conductance, const Field& q,
                Field& out) {
@@ -43,114 +23,226 @@ void diffusion(const Layout& layout, const std::array<Field, 3>& conductance, co
   });
 }
 
-DiffusionSolver::DiffusionSolver(const Mesh& mesh, const Halo& halo)
-    : mesh_(mesh), halo_(halo), correction_(make_fields(mesh)), before_(make_fields(mesh)),
-      inverse_diagonal_(make_fields(mesh)) {}
+namespace {
 
-void DiffusionSolver::set_operator(const BlockFields& inertia, const FaceConductance& conductance) {
-  inertia_ = &inertia;
-  conductance_ = &conductance;
-  half_width_ = 0;
-  for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
-    const Layout& layout = mesh_.local[b].layout;
-    const Diffusion spread(layout, conductance[b]);
-    const double* mass = inertia[b].data();
-    double* inverse = inverse_diagonal_[b].data();
-    half_width_ = std::max(half_width_, max_cells(layout, 0, [=](std::ptrdiff_t c) {
-                             const double half = 0.5 * spread.faces(c);
-                             inverse[c] = 1 / (mass[c] + half);
-                             return half * inverse[c];
-                           }));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &half_width_, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+/// Powers of 2 round nothing; with them numbers of any size fit into single precision.
+double scale_to_one(double size) {
+  return size > 0 && std::isfinite(size) ? std::ldexp(1, -std::ilogb(size)) : 1;
 }
 
-/// correction + keep (correction - the one before) + gain (defect - A correction) / diagonal, which
-/// becomes the correction.
-void DiffusionSolver::step(const Unknown& unknown, const BlockFields& defect, double keep,
-                           double gain) {
-  halo_.exchange({&correction_});
-  unknown.fill_ghosts(correction_);
-  for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
-    const Layout& layout = mesh_.local[b].layout;
-    const Diffusion spread(layout, (*conductance_)[b]);
-    for_rows(layout, [=, x = correction_[b].data(), next = before_[b].data(), d = defect[b].data(),
-                      mass = (*inertia_)[b].data(), inverse = inverse_diagonal_[b].data(),
-                      n = layout.cells[0]](std::ptrdiff_t row, int, int) {
+/// The same cell, or face, in the fields of a level.
+std::ptrdiff_t in_level(const Layout& from, const LevelLayout& to, std::ptrdiff_t c) {
+  const std::ptrdiff_t beyond = c - from.origin, k = beyond / from.stride[2],
+                       j = beyond % from.stride[2] / from.stride[1],
+                       i = beyond % from.stride[2] % from.stride[1];
+  return to.origin + i + j * to.stride[1] + k * to.stride[2];
+}
+
+/// A face of a boundary and the cell inside, as the level sees them: there no boundary face
+/// couples, and what its ghost does is part of the mass.
+struct BoundedFace {
+  std::size_t block, direction;
+  std::ptrdiff_t cell, cell_of_level, face;
+  float coefficient; ///< half the conductance
+  float ghost_factor;
+};
+
+/// The error that single precision leaves, in units of the defect over the least share of inertia
+/// in a diagonal; some ten times what is seen (test_diffusion_solver.cpp).
+constexpr double rounding = 1e-6;
+
+} // namespace
+
+struct DiffusionSolver::Impl {
+  Impl(const Mesh& m, const Boundaries& b);
+  void take_coefficients(const FaceConductance& conductance);
+  void take_inertia();
+  void bound(const Unknown& unknown);
+  void set_inverse(LevelBlock& block, std::ptrdiff_t row, int n) const;
+  void take(const BlockFields& defect, double factor);
+  void add(const Unknown& unknown, double factor);
+
+  const Mesh& mesh;
+  const Boundaries& boundaries;
+  const BlockFields* inertia = nullptr;
+  double half_width = 0; ///< of the spectrum about 1
+  double scale = 1;      ///< of the operator in the level
+  std::vector<BoundedFace> bounded;
+  Smoothing smoothing{0, 1, 0};
+  Level level;
+};
+
+DiffusionSolver::Impl::Impl(const Mesh& m, const Boundaries& b)
+    : mesh(m), boundaries(b), level(m, smoothing) {
+  for (LevelBlock& block : level.blocks)
+    block.mass = FloatField(block.layout.size);
+  for (const BoundaryPatch& patch : boundaries.patches()) {
+    const auto block = std::size_t(patch.block);
+    const Layout& from = mesh.local[block].layout;
+    const LevelLayout& to = level.blocks[block].layout;
+    for (const BoundaryFace& face : patch.faces)
+      bounded.push_back({block, std::size_t(patch.direction), face.cell,
+                         in_level(from, to, face.cell), in_level(from, to, face.face), 0, 0});
+  }
+}
+
+void DiffusionSolver::Impl::take_coefficients(const FaceConductance& conductance) {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    LevelBlock& block = level.blocks[b];
+    const LevelLayout& to = block.layout;
+    const Layout& from = mesh.local[b].layout;
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (closed_on_itself(mesh, mesh.local[b].id, int(d)))
+        continue;
+      Index3 n = to.cells;
+      ++n[d];
+#pragma omp parallel for collapse(2) schedule(static) if (to.interior() >= smallest_parallel_sweep)
+      for (int k = 0; k < n[2]; ++k)
+        for (int j = 0; j < n[1]; ++j) {
+          const double* g = conductance[b][d].data() + from.at(0, j, k);
+          float* taken = block.coefficient[d].data() + to.at(0, j, k);
+          const double factor = 0.5 * scale;
 #pragma omp simd
-      for (std::ptrdiff_t c = row; c < row + n; ++c)
-        next[c] = x[c] + keep * (x[c] - next[c]) +
-                  gain * inverse[c] * (d[c] - mass[c] * x[c] + 0.5 * spread(x, c));
+          for (int i = 0; i < n[0]; ++i)
+            taken[i] = float(factor * g[i]);
+        }
+    }
+  }
+  for (BoundedFace& bounded_face : bounded) {
+    float& c = level.blocks[bounded_face.block]
+                   .coefficient[bounded_face.direction]
+                   .data()[bounded_face.face];
+    bounded_face.coefficient = c;
+    bounded_face.ghost_factor = 1; // as if it were not there
+    c = 0;
+  }
+}
+
+/// 1/(mass + coefficients) for n cells.
+void DiffusionSolver::Impl::set_inverse(LevelBlock& block, std::ptrdiff_t row, int n) const {
+  const float *mass = block.mass.data() + row, *ci = block.coefficient[0].data() + row,
+              *cj = block.coefficient[1].data() + row, *ck = block.coefficient[2].data() + row;
+  float* inverse = block.inverse_diagonal.data() + row;
+  const std::ptrdiff_t sj = block.layout.stride[1], sk = block.layout.stride[2];
+#pragma omp simd
+  for (std::ptrdiff_t i = 0; i < n; ++i)
+    inverse[i] = 1 / (mass[i] + ci[i] + ci[i + 1] + cj[i] + cj[i + sj] + ck[i] + ck[i + sk]);
+}
+
+void DiffusionSolver::Impl::take_inertia() {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    LevelBlock& block = level.blocks[b];
+    const Layout& from = mesh.local[b].layout;
+    for_rows(block.layout, [&](std::ptrdiff_t row, int j, int k) {
+      const double* of_cells = (*inertia)[b].data() + from.at(0, j, k);
+      float* mass = block.mass.data() + row;
+#pragma omp simd
+      for (int i = 0; i < block.layout.cells[0]; ++i)
+        mass[i] = float(scale * of_cells[i]);
+      set_inverse(block, row, block.layout.cells[0]);
     });
   }
-  std::swap(correction_, before_);
 }
 
-/// Adds the correction to the unknown and takes what it did off the defect; returns what is left.
-double DiffusionSolver::take_off(const Unknown& unknown, BlockFields& defect) {
-  halo_.exchange({&correction_});
-  unknown.fill_ghosts(correction_);
-  double left = 0;
-  for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
-    const Layout& layout = mesh_.local[b].layout;
-    const Diffusion spread(layout, (*conductance_)[b]);
-    const double *x = correction_[b].data(), *mass = (*inertia_)[b].data();
-    double *q = unknown.at(b).data(), *d = defect[b].data();
-    left += sum_rows<1>(layout, room_, [=, n = layout.cells[0]](std::ptrdiff_t row, int, int) {
-      double squares = 0;
-#pragma omp simd reduction(+ : squares)
-      for (std::ptrdiff_t c = row; c < row + n; ++c) {
-        q[c] += x[c];
-        d[c] -= mass[c] * x[c] - 0.5 * spread(x, c);
-        squares += d[c] * d[c];
-      }
-      return std::array<double, 1>{squares};
-    })[0];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &left, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-  return std::sqrt(left);
+/// Brings the ghosts of the unknown into the operator.
+void DiffusionSolver::Impl::bound(const Unknown& unknown) {
+  bool same = true;
+  auto at = bounded.begin();
+  for (const BoundaryPatch& patch : boundaries.patches())
+    for (const BoundaryFace& face : patch.faces) {
+      const auto factor = float(unknown.ghost_factor(patch, face));
+      same = same && factor == at->ghost_factor;
+      at->ghost_factor = factor;
+      ++at;
+    }
+  if (same)
+    return;
+  for (const BoundedFace& s : bounded) // a cell may have several
+    level.blocks[s.block].mass.data()[s.cell_of_level] = float(scale * (*inertia)[s.block][s.cell]);
+  for (const BoundedFace& s : bounded)
+    level.blocks[s.block].mass.data()[s.cell_of_level] += (1 - s.ghost_factor) * s.coefficient;
+  for (const BoundedFace& s : bounded)
+    set_inverse(level.blocks[s.block], s.cell_of_level, 1);
 }
 
-int DiffusionSolver::solve(const Unknown& unknown, BlockFields& defect, double enough) {
-  constexpr int most_iterations = 5000;
-  double size = 0;
-  for (std::size_t b = 0; b < mesh_.local.size(); ++b)
-    size += sum_cells(mesh_.local[b].layout,
-                      [&](std::ptrdiff_t c) { return defect[b][c] * defect[b][c]; });
-  MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-  size = std::sqrt(size);
-
-  const double s = half_width_, factor = s / (1 + std::sqrt(1 - s * s)); // of one iteration
-  int iterations = 0;
-  while (size > enough) {
-    if (iterations > most_iterations || !std::isfinite(size))
-      throw NumericalError(unknown.name + " did not converge in " + std::to_string(iterations) +
-                           " iterations: defect " + std::to_string(size / enough) +
-                           " times what was wanted; use a smaller time step");
-    const double wanted = 0.5 * enough / size;
-    const int count = s > 0 ? std::max(1, int(std::ceil(std::log(wanted) / std::log(factor)))) : 1;
-    for (std::size_t b = 0; b < mesh_.local.size(); ++b) { // from zero: no neighbours
-      const Layout& layout = mesh_.local[b].layout;
-      for_rows(layout, [=, x = correction_[b].data(), zero = before_[b].data(),
-                        d = defect[b].data(), inverse = inverse_diagonal_[b].data(),
-                        n = layout.cells[0]](std::ptrdiff_t row, int, int) {
+void DiffusionSolver::Impl::take(const BlockFields& defect, double factor) {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    LevelBlock& block = level.blocks[b];
+    for_rows(block.layout, [&, n = block.layout.cells[0]](std::ptrdiff_t row, int j, int k) {
+      const double* d = defect[b].data() + mesh.local[b].layout.at(0, j, k);
+      float* rhs = block.rhs.data() + row;
 #pragma omp simd
-        for (std::ptrdiff_t c = row; c < row + n; ++c) {
-          x[c] = inverse[c] * d[c];
-          zero[c] = 0;
-        }
-      });
-    }
-    double rho = s; // Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., algorithm 12.1
-    for (int k = 1; k < count; ++k) {
-      const double rho_new = 1 / (2 / s - rho);
-      step(unknown, defect, rho_new * rho, 2 * rho_new / s);
-      rho = rho_new;
-    }
-    iterations += count;
-    size = take_off(unknown, defect);
+      for (int i = 0; i < n; ++i)
+        rhs[i] = float(factor * d[i]);
+    });
   }
-  return iterations;
+}
+
+void DiffusionSolver::Impl::add(const Unknown& unknown, double factor) {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    const LevelBlock& block = level.blocks[b];
+    double* of_block = unknown.at(b).data();
+    for_rows(block.layout, [&, n = block.layout.cells[0]](std::ptrdiff_t row, int j, int k) {
+      double* q = of_block + mesh.local[b].layout.at(0, j, k);
+      const float* x = block.x.data() + row;
+#pragma omp simd
+      for (int i = 0; i < n; ++i)
+        q[i] += factor * double(x[i]);
+    });
+  }
+}
+
+DiffusionSolver::DiffusionSolver(const Mesh& mesh, const Boundaries& boundaries)
+    : impl_(std::make_unique<Impl>(mesh, boundaries)) {}
+
+DiffusionSolver::~DiffusionSolver() = default;
+
+void DiffusionSolver::set_operator(const BlockFields& inertia, const FaceConductance& conductance) {
+  Impl& s = *impl_;
+  s.inertia = &inertia;
+  double most[2] = {0, 0}; // share of diffusion in a diagonal, diagonal
+  for (std::size_t b = 0; b < s.mesh.local.size(); ++b) {
+    const Layout& layout = s.mesh.local[b].layout;
+    const Diffusion spread(layout, conductance[b]);
+    const double* mass = inertia[b].data();
+    most[0] = std::max(most[0], max_cells(layout, 0, [=](std::ptrdiff_t c) {
+                         const double half = 0.5 * spread.faces(c);
+                         return half / (mass[c] + half);
+                       }));
+    most[1] = std::max(most[1], max_cells(layout, 0, [=](std::ptrdiff_t c) {
+                         return mass[c] + 0.5 * spread.faces(c);
+                       }));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, s.mesh.comm);
+  s.half_width = most[0];
+  s.scale = scale_to_one(most[1]);
+  s.take_coefficients(conductance);
+  s.take_inertia();
+}
+
+DiffusionSolver::Report DiffusionSolver::correct(const Unknown& unknown, const BlockFields& defect,
+                                                 double size, double enough) {
+  constexpr int most_iterations = 5000;
+  Impl& s = *impl_;
+  const double w = s.half_width;
+  Report report;
+  report.left = std::max(enough, rounding / (1 - w) * size);
+  const double factor = w / (1 + std::sqrt(1 - w * w)); // of one iteration
+  const double steps =
+      w > 0 ? std::max(1.0, std::ceil(std::log(0.5 * report.left / size) / std::log(factor))) : 1;
+  if (!(report.left < 0.5 * size) || !(steps < most_iterations))
+    throw NumericalError(unknown.name + ": diffusion over a step is " +
+                         std::to_string(w / (1 - w)) +
+                         " times the inertia of a cell, too much for the solver; use a smaller "
+                         "time step");
+  report.iterations = int(steps);
+  s.smoothing = Smoothing(report.iterations, 1, w);
+  s.bound(unknown);
+  const double unit = scale_to_one(size);
+  s.take(defect, unit);
+  smooth(s.level);
+  s.add(unknown, s.scale / unit);
+  return report;
 }
 
 } // namespace granflux::cfd

@@ -14,7 +14,7 @@ namespace granflux::cfd {
 EnergyEquation::EnergyEquation(const Mesh& mesh, const Halo& halo, const Boundaries& boundaries,
                                const Fluid& fluid, const Energy& energy, const Numerics& numerics)
     : mesh_(mesh), halo_(halo), boundaries_(boundaries), energy_(energy), numerics_(numerics),
-      capacity_(fluid.density * energy.heat_capacity), solver_(mesh, halo),
+      capacity_(fluid.density * energy.heat_capacity), solver_(mesh, boundaries),
       temperature_(make_fields(mesh)), temperature_old_(make_fields(mesh)),
       middle_(make_fields(mesh)), eps_(make_fields(mesh)), inertia_(make_fields(mesh)),
       rhs_(make_fields(mesh)), defect_(make_fields(mesh)), flow_(make_fields(mesh)),
@@ -120,9 +120,12 @@ void EnergyEquation::solve(const FaceFields& flux, FaceFields& work) {
   constexpr int most_passes = 200;
   // One solution does where the solver knows the whole operator.
   const bool once = mesh_.orthogonal && !implicit_;
-  const DiffusionSolver::Unknown unknown{
-      "energy equation", [&](std::size_t b) -> Field& { return temperature_[b]; },
-      [&](BlockFields& q) { boundaries_.fill_temperature_correction(q); }};
+  const Unknown unknown{"energy equation", [&](std::size_t b) -> Field& { return temperature_[b]; },
+                        [&](const BoundaryPatch& patch, const BoundaryFace&) {
+                          return boundaries_.temperature_ghost_factor(patch);
+                        }};
+  if (!implicit_)
+    solver_.set_operator(inertia_, conductance_);
   double scale = 0;
   for (int pass = 0; pass < most_passes; ++pass) {
     fill_ghosts(temperature_);
@@ -154,11 +157,12 @@ void EnergyEquation::solve(const FaceFields& flux, FaceFields& work) {
       implicit_->set_operator(inertia_, conductance_, flux, capacity_);
       implicit_->solve(unknown, defect_, 0.1, 0.5 * enough);
     } else {
-      solver_.set_operator(inertia_, conductance_);
-      solver_.solve(unknown, defect_, once ? enough : std::max(enough, 0.05 * size));
+      const double left =
+          solver_.correct(unknown, defect_, size, once ? enough : std::max(enough, 0.05 * size))
+              .left;
+      if (once && left <= enough)
+        return;
     }
-    if (once)
-      return;
   }
   throw NumericalError("energy equation: the temperature did not converge in " +
                        std::to_string(most_passes) + " passes: use a smaller time step");

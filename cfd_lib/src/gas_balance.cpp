@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <granflux/cfd/row_sweep.hpp>
 
@@ -31,10 +32,10 @@ Vec3 GasSolver::Impl::momentum() {
   return fluid.density * total;
 }
 
-void GasSolver::Impl::take_balance(double dt, const MomentumExchange* exchange,
-                                   const Vec3& old_momentum) {
+void GasSolver::Impl::take_balance(double dt, const MomentumExchange* exchange) {
   balance = {};
-  balance.momentum = momentum();
+  const Vec3 old_momentum = std::exchange(own_momentum, momentum());
+  balance.momentum = own_momentum;
   balance.thermal_buoyancy = thermal_buoyancy;
   balance.momentum_change = (balance.momentum - old_momentum) / dt;
   balance.convection = -boundary_convection;

@@ -39,10 +39,10 @@ void GasSolver::Impl::iterate_implicit(double new_time, const MomentumExchange* 
     state.outflow = convect_momentum(state.convection);
     std::array<double, 6> squares{}; // of each component's terms, of its defect
     for (std::size_t m = 0; m < 3; ++m) {
-      viscous_force(m, [&](std::size_t b) -> Field& { return state.defect[b][m]; });
+      viscous_force(m, defect[m]);
       for (std::size_t b = 0; b < mesh.local.size(); ++b) {
         const Block& block = mesh.local[b];
-        Field& left = state.defect[b][m];
+        Field& left = defect[m][b];
         for_cells(block.layout, [&](std::ptrdiff_t c) {
           const double rhs =
               (state.fixed[b][m][c] - share[b][c] * grad_p[b][m][c]) * block.volume[c];
@@ -72,10 +72,8 @@ void GasSolver::Impl::iterate_implicit(double new_time, const MomentumExchange* 
 
     state.solver.set_operator(inertia, conductance, flux, fluid.density);
     for (std::size_t m = 0; m < 3; ++m) {
-      for (std::size_t b = 0; b < mesh.local.size(); ++b)
-        std::swap(defect[b], state.defect[b][m]);
       report.viscous_iterations = std::max(
-          report.viscous_iterations, state.solver.solve(component(m), defect, reduction,
+          report.viscous_iterations, state.solver.solve(component(m), defect[m], reduction,
                                                         0.1 * numerics.implicit_tolerance * scale));
       // What this velocity would be made of; its own terms take their place in the end.
       for (std::size_t b = 0; b < mesh.local.size(); ++b)

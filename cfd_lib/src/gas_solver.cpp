@@ -30,25 +30,28 @@ MomentumExchange make_exchange(const Mesh& mesh) {
 
 GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     : mesh(m), fluid(c.fluid), numerics(c.numerics), halo(m), boundaries(m, c.boundaries),
-      diffusion_solver(m, halo),
+      diffusion_solver(m, boundaries),
       pressure_solver(make_pressure_solver(c.numerics.pressure_solver, m, !boundaries.has_outlet(),
                                            c.numerics.pressure_tolerance)),
       eps(make_fields(m, 1)), eps_start(make_fields(m, 1)), eps_middle(make_fields(m, 1)),
-      eps_inertia(make_fields(m, 1)), eps_rate(make_fields(m)), eps_rate_old(make_fields(m)),
-      u(make_vectors(m)), p(make_fields(m)), grad_p(make_vectors(m)), drag_slope(make_vectors(m)),
-      flux(make_faces(m)), convection(make_vectors(m)), convection_old(make_vectors(m)),
-      friction(make_vectors(m)), a(make_fields(m)), r(make_vectors(m)), share(make_fields(m, 1)),
-      inertia(make_fields(m)), defect(make_fields(m)), spread(make_fields(m)),
-      face_work(make_faces(m)), conductance(make_faces(m)) {
+      eps_inertia(make_fields(m, 1)), eps_inertia_start(make_fields(m, 1)),
+      eps_rate(make_fields(m)), eps_rate_old(make_fields(m)), u(make_vectors(m)), p(make_fields(m)),
+      grad_p(make_vectors(m)), drag_slope(make_vectors(m)), flux(make_faces(m)),
+      convection(make_vectors(m)), convection_old(make_vectors(m)), a(make_fields(m)),
+      r(make_vectors(m)), share(make_fields(m, 1)),
+      inertia(make_fields(m)), defect{make_fields(m), make_fields(m), make_fields(m)},
+      conductance(make_faces(m)) {
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     system.coefficient.push_back(
         {Field(mesh.local[b].layout), Field(mesh.local[b].layout), Field(mesh.local[b].layout)});
   system.rhs = make_fields(mesh);
   if (numerics.time_scheme == TimeScheme::implicit)
-    implicit = std::make_unique<ImplicitMomentum>(ImplicitMomentum{
-        {m, halo, boundaries}, make_vectors(m), make_vectors(m), make_vectors(m), {}});
-  if (!mesh.orthogonal || fluid.smagorinsky > 0)
+    implicit = std::make_unique<ImplicitMomentum>(
+        ImplicitMomentum{{m, halo, boundaries}, make_vectors(m), make_vectors(m), {}});
+  if (!mesh.orthogonal || fluid.smagorinsky > 0) {
     velocity_gradient.fill(make_vectors(m));
+    face_work = make_faces(m);
+  }
   if (!mesh.orthogonal)
     pressure_slope = make_vectors(m);
   if (fluid.smagorinsky > 0)
@@ -136,6 +139,7 @@ void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors&
   s.steps = 0;
   s.has_history = false;
   s.eps = s.eps_middle = s.eps_inertia = void_fraction;
+  s.steps_at_rest = 0;
   s.eps_rate = s.eps_rate_old = make_fields(s.mesh);
   s.halo.exchange({&s.eps_middle});
   s.boundaries.fill_zero_gradient(s.eps_middle);
@@ -150,7 +154,8 @@ void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors&
   StepReport report;
   s.project(time, Drive::none, nullptr, report);
   s.p = make_fields(s.mesh); // that was a potential, not a pressure
-  s.set_pressure_gradient(Drive::given);
+  s.set_pressure_gradient(Drive::given, After::nothing);
+  s.own_momentum = s.momentum();
   s.check_finite();
   if (s.energy)
     s.energy->initialise();
@@ -169,48 +174,16 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
   s.ab_now = s.implicit ? 0.5 : 1 + 0.5 * ratio;
   s.ab_old = s.implicit ? 0 : -0.5 * ratio;
 
-  const Vec3 old_momentum = s.momentum();
   s.update_velocity_gradient();
   if (!s.implicit) {
     std::swap(s.convection, s.convection_old);
     s.outflow_old = s.outflow;
   }
-  s.outflow = s.convect_momentum(s.convection);
-  for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
-    for (std::size_t m = 0; m < 3; ++m)
-      for_cells(s.mesh.local[b].layout, [&](std::ptrdiff_t c) {
-        s.r[b][m][c] = s.fluid.density / dt * s.eps_inertia[b][c] * s.u[b][m][c];
-      });
-  s.eps_start = s.eps;
-  if (!s.implicit)
-    s.move_inertia(dt, s.ab_now, s.eps_rate_old, s.ab_old);
   if (s.energy)
-    s.energy->begin(s.eps_start);
-  std::swap(s.eps_rate, s.eps_rate_old);
-  s.eps_rate_noise = 1e-13 / dt;
-  for (std::size_t b = 0; b < s.mesh.local.size(); ++b)
-    for_cells(s.mesh.local[b].layout, [&](std::ptrdiff_t c) {
-      s.eps_rate[b][c] = (void_fraction[b][c] - s.eps_start[b][c]) / dt;
-      s.eps_middle[b][c] = 0.5 * (void_fraction[b][c] + s.eps_start[b][c]);
-      s.eps[b][c] = void_fraction[b][c];
-    });
-  if (s.implicit)
-    s.move_inertia(dt, s.ab_now, s.eps_rate, 1 - s.ab_now);
-  double lightest =
-      s.max(-1, [&](std::size_t b, std::ptrdiff_t c) { return -s.eps_inertia[b][c]; });
-  MPI_Allreduce(MPI_IN_PLACE, &lightest, 1, MPI_DOUBLE, MPI_MAX, s.mesh.comm);
-  if (lightest >= 0) {
-    report.history_restarted = true;
-    s.eps_inertia = s.eps_start;
-    if (!s.implicit)
-      s.ab_now = 1, s.ab_old = 0;
-  }
-  s.halo.exchange({&s.eps_middle, &s.eps_start});
-  s.boundaries.fill_zero_gradient(s.eps_middle);
-  s.boundaries.fill_zero_gradient(s.eps_start);
+    s.energy->begin(s.eps);
+  report.history_restarted = s.move_void_fraction(dt, void_fraction);
   s.set_conductance();
-  s.add_thermal_buoyancy();
-
+  s.set_medium(dt, exchange);
   s.begin_momentum(dt, exchange);
   if (s.implicit) {
     s.iterate_implicit(new_time, exchange, report);
@@ -219,7 +192,7 @@ StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
     s.add_new_friction(new_time);
     s.project(new_time, Drive::given, exchange, report);
   }
-  s.take_balance(dt, exchange, old_momentum);
+  s.take_balance(dt, exchange);
   if (!std::isfinite(norm(s.balance.momentum_residual)))
     s.check_finite(); // names the cell and throws
   if (s.energy)
@@ -386,6 +359,8 @@ void GasSolver::load(const std::vector<double>& state) {
     std::copy_n(state.begin() + std::ptrdiff_t(at), n, values);
     at += n;
   });
+  impl_->steps_at_rest = 0;
+  impl_->own_momentum = impl_->momentum();
 }
 
 } // namespace granflux::cfd

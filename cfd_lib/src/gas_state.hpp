@@ -32,12 +32,15 @@ inline double on_face(const Field& q, const Field& weight, std::ptrdiff_t f,
 /// Whether given pressures (outlets, driving gradient) act, or, for the initial projection, not.
 enum class Drive { none, given };
 
+/// What set_pressure_gradient() goes on with.
+enum class After { nothing, set_velocity };
+
 /// What the implicit scheme alone needs.
 struct ImplicitMomentum {
   TransportSolver solver;
   BlockVectors fixed; ///< right-hand side without the pressure and the new velocity's terms [N/m3]
-  BlockVectors convection, defect; ///< at the new time, of each cell [N]
-  Vec3 outflow;                    ///< of it, through this rank's boundaries [N]
+  BlockVectors convection; ///< at the new time, of each cell [N]
+  Vec3 outflow;            ///< of it, through this rank's boundaries [N]
 };
 
 /// State of the gas and the parts of its step, each in a file of its own: gas_convection.cpp,
@@ -47,25 +50,37 @@ struct GasSolver::Impl {
 
   // The step, in order.
   void update_velocity_gradient();
-  void move_inertia(double dt, double of_last, const BlockFields& other, double of_other);
-  Vec3 convect_momentum(BlockVectors& out);
-  void add_thermal_buoyancy();
+  bool move_void_fraction(double dt, const BlockFields& void_fraction);
   void set_conductance();
-  double viscous_force(std::size_t m, const std::function<Field&(std::size_t)>& out);
-  DiffusionSolver::Unknown component(std::size_t m);
+  void set_medium(double dt, const MomentumExchange* exchange);
+  bool set_thermal_buoyancy(const MomentumExchange* exchange);
+  Carried carried_momentum(std::size_t m, BlockVectors& out);
+  Vec3 convect_momentum(BlockVectors& out);
+  [[nodiscard]] double friction_at_boundaries(std::size_t m) const;
+  double viscous_force(std::size_t m, BlockFields& out);
+  Unknown component(std::size_t m);
+  auto spread_by_faces();
+  auto spread_in_defect();
+  template <class Convected, class Spread>
+  void set_momentum(double dt, const BlockVectors* source, Convected&& convected, Spread&& spread);
   void begin_momentum(double dt, const MomentumExchange* exchange);
+  void move_boundaries(double new_time);
+  void take_defect();
   void predict(double new_time, StepReport& report);
   void add_new_friction(double new_time);
   void close_implicit(double new_time, const MomentumExchange* exchange, StepReport& report);
   void iterate_implicit(double new_time, const MomentumExchange* exchange, StepReport& report);
   void project(double new_time, Drive drive, const MomentumExchange* exchange, StepReport& report);
   void interpolate_momentum(double new_time, Drive drive);
-  void make_solvable();
+  void take_continuity();
   void set_drag_slope(const MomentumExchange& exchange);
-  void set_pressure_gradient(Drive drive);
+  void set_pressure_gradient(Drive drive, After after);
+  void set_velocity(std::size_t b, std::ptrdiff_t row);
   void check_finite() const;
-  void take_balance(double dt, const MomentumExchange* exchange, const Vec3& old_momentum);
+  void take_balance(double dt, const MomentumExchange* exchange);
 
+  /// Whether the void fraction has not moved for so long that nothing that follows from it does.
+  [[nodiscard]] bool resting() const { return steps_at_rest > 3; }
   [[nodiscard]] Vec3 momentum();
   [[nodiscard]] std::string cell_name(std::int64_t encoded) const;
   template <class Term> double sum(Term&& term) const {
@@ -103,7 +118,10 @@ struct GasSolver::Impl {
   BlockFields eps_start;   ///< start of the present step, where the momentum equation is centred
   BlockFields eps_middle;  ///< mean over the present step
   BlockFields eps_inertia; ///< carried by the convecting fluxes: what holds the gas's momentum
+  BlockFields eps_inertia_start;      ///< the same at the start of the step
   BlockFields eps_rate, eps_rate_old; ///< d eps/dt that the last two fluxes satisfy [1/s]
+  long steps_at_rest = 0;             ///< in a row in which the void fraction did not change
+  bool exchanged = false;             ///< whether the medium is that of a step with particles
   double eps_rate_noise = 0;          ///< round-off of its mean, at most [1/s]
   BlockVectors u;
   BlockFields p;
@@ -113,7 +131,6 @@ struct GasSolver::Impl {
   FaceFields flux;                         ///< F [m3/s], along +direction
   BlockVectors convection, convection_old; ///< momentum leaving each cell [N]
   Vec3 outflow, outflow_old;               ///< of it, through the boundaries [N]
-  BlockVectors friction;                   ///< viscous force on each cell for the old velocity [N]
   /// Of the step, on this rank's gas: friction in, momentum out through boundaries [N].
   Vec3 boundary_friction, boundary_convection;
   /// Of each component, where the mesh is not orthogonal or eddies are modelled.
@@ -123,12 +140,15 @@ struct GasSolver::Impl {
   BlockFields a;               ///< kg/(m3 s)
   BlockVectors r;              ///< N/m3
   BlockFields share;           ///< of the pressure gradient that the gas bears
-  BlockFields inertia, defect;
-  BlockFields spread; ///< viscous force on each cell, one component of the new velocity [N]
-  FaceFields face_work, conductance;
+  BlockFields inertia;         ///< a times the cell's volume [kg/s]
+  std::array<BlockFields, 3> defect;      ///< of the momentum equation, of each component [N]
+  std::array<double, 3> squares_of_terms; ///< of the equation's terms, of each component [N2]
+  FaceFields conductance;
+  FaceFields face_work;     ///< where the mesh is not orthogonal or eddies are modelled
   std::vector<double> room; ///< for sums over rows
   PressureSystem system;
   Balance balance;
+  Vec3 own_momentum;                      ///< of this rank's gas, end of the last step [N s]
   Vec3 thermal_buoyancy;                  ///< of this step, this rank [N]
   std::unique_ptr<EnergyEquation> energy; ///< only where the case asks for it
 };

@@ -17,17 +17,21 @@ constexpr std::size_t u(int i) {
 
 } // namespace
 
-Smoothing::Smoothing(int count, double share_left) : steps(std::size_t(count) + 1) {
-  constexpr double high = 2;
-  const double low = high * share_left, centre = (high + low) / 2, half_width = (high - low) / 2;
-  const double sigma = centre / half_width;
-  double rho = 1 / sigma;
-  steps[1] = {0, float(1 / centre)};
+Smoothing::Smoothing(int count, double centre, double half_width) : steps(std::size_t(count) + 1) {
+  if (count > 0)
+    steps[1] = {0, float(1 / centre)};
+  double rho = half_width / centre;
   for (std::size_t n = 2; n < steps.size(); ++n) {
-    const double rho_new = 1 / (2 * sigma - rho);
+    const double rho_new = 1 / (2 * centre / half_width - rho);
     steps[n] = {float(rho_new * rho), float(2 * rho_new / half_width)};
     rho = rho_new;
   }
+}
+
+Smoothing Smoothing::above(double share_left, int count) {
+  constexpr double high = 2;
+  const double low = high * share_left;
+  return {count, (high + low) / 2, (high - low) / 2};
 }
 
 namespace {
@@ -71,10 +75,10 @@ Smoothing smoothing_for(const Mesh& finest) {
   // All leave about 1/12 of what they damp.
   const double spread = spread_of_ratios(finest);
   if (spread < 4)
-    return {3, 1.0 / 4};
+    return Smoothing::above(1.0 / 4, 3);
   if (spread < 100)
-    return {6, 1.0 / 16};
-  return {8, 1.0 / 24};
+    return Smoothing::above(1.0 / 16, 6);
+  return Smoothing::above(1.0 / 24, 8);
 }
 
 LevelBlock::LevelBlock(Index3 cells, int outer_direction)

@@ -12,17 +12,19 @@
 
 namespace granflux::cfd {
 
-/// Chebyshev iteration for A x = rhs, A scaled by its diagonal. It damps the part of the spectrum
-/// above a share of its upper bound, which is 2 for any matrix of this kind (Gershgorin); what lies
-/// below is for the coarse levels. Saad, Iterative Methods for Sparse Linear Systems, 2nd ed.,
-/// algorithm 12.1.
+/// Chebyshev iteration for A x = rhs, A scaled by its diagonal. Saad, Iterative Methods for Sparse
+/// Linear Systems, 2nd ed., algorithm 12.1.
 struct Smoothing {
   /// Step n, from 1: x + keep (x - x_before) + gain (rhs - A x) / diagonal.
   struct Step {
     float keep, gain;
   };
 
-  Smoothing(int steps, double share_left_to_coarse_levels);
+  /// Damps what lies within centre -+ half_width of the spectrum.
+  Smoothing(int steps, double centre, double half_width);
+  /// Damps the part of the spectrum above a share of its upper bound, which is 2 for any matrix
+  /// without mass (Gershgorin); what lies below is for the coarse levels.
+  static Smoothing above(double share_left_to_coarse_levels, int steps);
   [[nodiscard]] int count() const { return int(steps.size()) - 1; }
 
   std::vector<Step> steps; ///< entry 0 is not used
@@ -39,7 +41,8 @@ struct LevelBlock {
 
   LevelLayout layout;
   std::array<FloatField, 3> coefficient; ///< of low faces; 0 where a direction couples nothing
-  FloatField inverse_diagonal;           ///< 0 where nothing couples to a cell
+  FloatField mass; ///< what the diagonal has beyond the sum of the coefficients; empty for nothing
+  FloatField inverse_diagonal; ///< 0 where nothing couples to a cell
   FloatField rhs;
   FloatField x, spare; ///< the iterate and its next one; ghosts at boundaries stay 0
 
@@ -98,6 +101,9 @@ enum class Start {
   iterate,  ///< x
   corrected ///< x and what the coarse level adds
 };
+
+/// Chebyshev smoothing of A x = rhs from zero on all blocks of a level. Collective.
+void smooth(Level& level);
 
 /// Chebyshev smoothing of A x = rhs on all blocks of a level, then the residual summed over the
 /// cells that join into the right-hand side of `coarse`. Collective.

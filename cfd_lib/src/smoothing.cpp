@@ -120,22 +120,28 @@ void spread(const float* coarse, int N, const Pairing& pairing, const float* x, 
     corrected[n - 1] = x[n - 1] + coarse[N - 1];
 }
 
-/// One row of a step; `before` is not looked at where there is none. Returns the row's part of
-/// rhs . next where that is asked for.
-template <bool has_before, bool has_product>
+/// One row of a step; `before` and `mass` are not looked at where there are none. Returns the row's
+/// part of rhs . next where that is asked for.
+template <bool has_before, bool has_mass, bool has_product>
 double step_row(const RowOperator& a, const float* rhs, const float* inverse, const float* before,
-                float* next, int n, const Smoothing::Step& step) {
+                const float* mass, float* next, int n, const Smoothing::Step& step) {
   const auto [keep, gain] = step;
-  double product = 0;
-#pragma omp simd reduction(+ : product)
+#pragma omp simd
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const float change = gain * inverse[i] * (rhs[i] - a(i));
+    float image = a(i);
+    if constexpr (has_mass)
+      image += mass[i] * a.x[i];
+    const float change = gain * inverse[i] * (rhs[i] - image);
     float x = (1 + keep) * a.x[i] + change;
     if constexpr (has_before)
       x -= keep * before[i];
     next[i] = x;
-    if constexpr (has_product)
-      product += double(rhs[i]) * double(x);
+  }
+  double product = 0;
+  if constexpr (has_product) {
+#pragma omp simd reduction(+ : product)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
+      product += double(rhs[i]) * double(next[i]);
   }
   return product;
 }
@@ -168,16 +174,18 @@ void step_plane(const Sweep& s, int n, int k, const Plane<const float>& x,
                 const Plane<const float>& low, const Plane<const float>& high,
                 const Plane<const float>& before, const Plane<float>& to, double* products) {
   const auto rhs = s.plane(s.b.rhs.data(), k), inverse = s.plane(s.b.inverse_diagonal.data(), k);
-  const Smoothing::Step& step = s.steps.steps[u(n)];
+  const float* mass = s.b.mass.data();
+  const Plane<const float> masses = mass ? s.plane(mass, k) : Plane<const float>{nullptr, 0};
+  const auto step_of = products ? step_row<true, false, true>
+                       : before.first
+                           ? (mass ? step_row<true, true, false> : step_row<true, false, false>)
+                           : (mass ? step_row<false, true, false> : step_row<false, false, false>);
   for (int j = 0; j < s.n_inner; ++j) {
-    const RowOperator a = s.row_operator(x, low, high, j, k);
+    const double product =
+        step_of(s.row_operator(x, low, high, j, k), rhs.row(j), inverse.row(j), before.row(j),
+                masses.row(j), to.row(j), s.n, s.steps.steps[u(n)]);
     if (products)
-      products[k * s.n_inner + j] =
-          step_row<true, true>(a, rhs.row(j), inverse.row(j), before.row(j), to.row(j), s.n, step);
-    else if (before.first)
-      step_row<true, false>(a, rhs.row(j), inverse.row(j), before.row(j), to.row(j), s.n, step);
-    else
-      step_row<false, false>(a, rhs.row(j), inverse.row(j), nullptr, to.row(j), s.n, step);
+      products[k * s.n_inner + j] = product;
   }
 }
 
@@ -295,7 +303,7 @@ void make_room(LevelBlock& b) {
 /// That of this thread, touched first by it.
 float* own_room(LevelBlock& b, const Smoothing& steps) {
   FloatField& room = b.planes[u(omp_get_thread_num())];
-  if (!room.data())
+  if (room.size() < Window::size(b, steps))
     room = FloatField(Window::size(b, steps));
   return room.data();
 }
@@ -355,6 +363,16 @@ void smooth_by_steps(Level& level, Start start) {
 }
 
 } // namespace
+
+void smooth(Level& level) {
+  constexpr int most_in_cache = 16; // steps whose planes are swept at once
+  if (level.linked || level.smoothing.count() > most_in_cache) {
+    smooth_by_steps(level, Start::zero);
+    return;
+  }
+  for (LevelBlock& block : level.blocks)
+    sweep_block(level, block, {}, Start::zero, nullptr, nullptr);
+}
 
 void smooth_and_restrict(Level& level, Level& coarse, Start start) {
   if (!level.linked) {

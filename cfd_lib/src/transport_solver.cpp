@@ -58,10 +58,13 @@ void TransportSolver::set_operator(const BlockFields& inertia, const FaceConduct
   }
 }
 
-void TransportSolver::multiply(const DiffusionSolver::Unknown& unknown, BlockFields& q,
-                               BlockFields& image) {
+void TransportSolver::multiply(const Unknown& unknown, BlockFields& q, BlockFields& image) {
   halo_.exchange({&q});
-  unknown.fill_ghosts(q);
+  for (const BoundaryPatch& patch : boundaries_.patches()) {
+    Field& x = q[std::size_t(patch.block)];
+    for (const BoundaryFace& face : patch.faces)
+      x[face.ghost] = unknown.ghost_factor(patch, face) * x[face.cell];
+  }
   for (std::size_t b = 0; b < mesh_.local.size(); ++b) {
     const Layout& layout = mesh_.local[b].layout;
     const auto [si, sj, sk] = layout.stride;
@@ -80,8 +83,8 @@ void TransportSolver::multiply(const DiffusionSolver::Unknown& unknown, BlockFie
   }
 }
 
-int TransportSolver::solve(const DiffusionSolver::Unknown& unknown, BlockFields& defect,
-                           double reduction, double enough) {
+int TransportSolver::solve(const Unknown& unknown, BlockFields& defect, double reduction,
+                           double enough) {
   constexpr int most_iterations = 1000;
   const auto each = [&](auto&& body) {
     for (std::size_t b = 0; b < mesh_.local.size(); ++b)

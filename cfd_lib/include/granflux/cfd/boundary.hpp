@@ -48,8 +48,9 @@ public:
                               double time) const;
   /// Ghosts of the interstitial velocity; a ghost and its cell average to the boundary value.
   void fill_velocity(BlockVectors& velocity, const BlockFields& void_fraction, double time) const;
-  /// Ghosts of a correction to velocity component m, for homogeneous conditions.
-  void fill_velocity_correction(BlockFields& correction, int m) const;
+  /// Of a correction to velocity component m: its ghost in units of the cell inside.
+  [[nodiscard]] double velocity_ghost_factor(const BoundaryPatch& patch, const BoundaryFace& face,
+                                             int m) const;
   /// Ghosts of the pressure: outlet value (0 if not `with_given`), else continued from inside,
   /// linearly but for the part of the gradient that balances drag, which may jump between cells.
   void fill_pressure(BlockFields& pressure, const BlockVectors& drag_slope, bool with_given) const;
@@ -59,8 +60,8 @@ public:
   /// Ghosts of the temperature. `conductance`: k eps_f |S|^2/(S.dx) on low faces [W/K].
   void fill_temperature(BlockFields& temperature,
                         const std::vector<std::array<Field, 3>>& conductance) const;
-  /// Ghosts of a correction to the temperature, for homogeneous conditions.
-  void fill_temperature_correction(BlockFields& correction) const;
+  /// The same of a correction to the temperature.
+  [[nodiscard]] double temperature_ghost_factor(const BoundaryPatch& patch) const;
   /// Ghosts equal to their cells.
   void fill_zero_gradient(BlockFields& field) const;
 

@@ -47,7 +47,7 @@ class FloatField {
 public:
   FloatField() = default;
   explicit FloatField(std::size_t size)
-      : values_(static_cast<float*>(std::aligned_alloc(alignment, bytes(size)))) {
+      : size_(size), values_(static_cast<float*>(std::aligned_alloc(alignment, bytes(size)))) {
     if (!values_)
       throw std::bad_alloc();
     const auto n = std::ptrdiff_t(bytes(size) / sizeof(float));
@@ -62,6 +62,9 @@ public:
   [[nodiscard]] const float* data() const {
     return values_.get();
   }
+  [[nodiscard]] std::size_t size() const {
+    return size_;
+  }
 
 private:
   static constexpr std::size_t alignment = 64;
@@ -71,6 +74,7 @@ private:
   struct Free {
     void operator()(float* p) const { std::free(p); }
   };
+  std::size_t size_ = 0;
   std::unique_ptr<float[], Free> values_;
 };
 

@@ -21,6 +21,25 @@ template <class AnyLayout, class Body> void for_rows(const AnyLayout& layout, Bo
       body(layout.at(0, j, k), j, k);
 }
 
+/// body(d, row, n) for every row along i of the n faces of each direction d that begin at `row`,
+/// those on the block's sides included; the directions of a row follow each other, so that what
+/// they share stays in cache.
+template <class Body> void for_face_rows(const Layout& layout, Body&& body) {
+  const auto [ni, nj, nk] = layout.cells;
+#pragma omp parallel for collapse(2)                                                               \
+    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
+  for (int k = 0; k <= nk; ++k)
+    for (int j = 0; j <= nj; ++j) {
+      const std::ptrdiff_t row = layout.at(0, j, k);
+      if (j < nj && k < nk)
+        body(std::size_t(0), row, ni + 1);
+      if (k < nk)
+        body(std::size_t(1), row, ni);
+      if (j < nj)
+        body(std::size_t(2), row, ni);
+    }
+}
+
 /// Sums of what term(row, j, k) returns, an array of numbers, over the rows in their order whatever
 /// the number of threads; `room` is work space that is kept by the caller, so that nothing is
 /// allocated in a loop.

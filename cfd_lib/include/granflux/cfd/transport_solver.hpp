@@ -4,6 +4,7 @@
 
 #include <granflux/cfd/boundary.hpp>
 #include <granflux/cfd/diffusion_solver.hpp>
+#include <granflux/cfd/halo.hpp>
 
 namespace granflux::cfd {
 
@@ -25,11 +26,10 @@ public:
   /// Adds to the unknown until what is left of `defect` has shrunk by `reduction`, or to `enough`
   /// (norm). Returns iterations; throws NumericalError on all ranks where that takes more than
   /// 1000. Collective.
-  int solve(const DiffusionSolver::Unknown& unknown, BlockFields& defect, double reduction,
-            double enough);
+  int solve(const Unknown& unknown, BlockFields& defect, double reduction, double enough);
 
 private:
-  void multiply(const DiffusionSolver::Unknown& unknown, BlockFields& q, BlockFields& image);
+  void multiply(const Unknown& unknown, BlockFields& q, BlockFields& image);
   template <class Term> [[nodiscard]] double sum(Term&& term) const;
 
   const Mesh& mesh_;
