@@ -225,12 +225,13 @@ DiffusionSolver::Report DiffusionSolver::correct(const Unknown& unknown, const B
   constexpr int most_iterations = 5000;
   Impl& s = *impl_;
   const double w = s.half_width;
+  const double tells = rounding / (1 - w); // of the defect, in single precision
   Report report;
-  report.left = std::max(enough, rounding / (1 - w) * size);
+  report.left = std::max(enough, tells * size);
   const double factor = w / (1 + std::sqrt(1 - w * w)); // of one iteration
   const double steps =
       w > 0 ? std::max(1.0, std::ceil(std::log(0.5 * report.left / size) / std::log(factor))) : 1;
-  if (!(report.left < 0.5 * size) || !(steps < most_iterations))
+  if (!(tells < 0.5) || !(steps < most_iterations))
     throw NumericalError(unknown.name + ": diffusion over a step is " +
                          std::to_string(w / (1 - w)) +
                          " times the inertia of a cell, too much for the solver; use a smaller "

@@ -25,8 +25,6 @@ bool GasSolver::Impl::move_void_fraction(double dt, const BlockFields& void_frac
   if (resting())
     return false;
 
-  std::swap(eps, eps_start);
-  std::swap(eps_inertia, eps_inertia_start);
   std::swap(eps_rate, eps_rate_old);
   // The rates that belong to the fluxes with which momentum is convected, and their weights: those
   // of the last two steps; or, where convection is implicit, of the last one and this one.
@@ -37,16 +35,17 @@ bool GasSolver::Impl::move_void_fraction(double dt, const BlockFields& void_frac
         max_cells(mesh.local[b].layout, found[1],
                   [&, now = void_fraction[b].data(), start = eps_start[b].data(),
                    end = eps[b].data(), middle = eps_middle[b].data(), rate = eps_rate[b].data(),
-                   rate_old = eps_rate_old[b].data(), inertia_old = eps_inertia_start[b].data(),
-                   inertia_new = eps_inertia[b].data()](std::ptrdiff_t c) {
-                    const double rate_new = (now[c] - start[c]) / dt;
-                    inertia_new[c] =
-                        inertia_old[c] +
-                        dt * (of_last * rate_old[c] + of_other * (implicit ? rate_new : rate[c]));
-                    rate[c] = rate_new;
+                   rate_old = eps_rate_old[b].data(), inertia_start = eps_inertia_start[b].data(),
+                   inertia_end = eps_inertia[b].data()](std::ptrdiff_t c) {
+                    start[c] = end[c];
                     end[c] = now[c];
                     middle[c] = 0.5 * (now[c] + start[c]);
-                    return -inertia_new[c];
+                    const double rate_new = (now[c] - start[c]) / dt;
+                    inertia_start[c] = inertia_end[c];
+                    inertia_end[c] +=
+                        dt * (of_last * rate_old[c] + of_other * (implicit ? rate_new : rate[c]));
+                    rate[c] = rate_new;
+                    return -inertia_end[c];
                   }));
   MPI_Allreduce(MPI_IN_PLACE, &found[1], 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
   const bool restarted = found[1] >= 0;
