@@ -79,7 +79,8 @@ set(GRANFLUX_MPIRUN ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --
 # then complains on every rank.
 set(GRANFLUX_TEST_ENVIRONMENT
     "GTEST_COLOR=no" "OMP_WAIT_POLICY=passive" "OMPI_MCA_mpi_yield_when_idle=1" "OMPI_MCA_btl_vader_single_copy_mechanism=none"
-    "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp")
+    "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp"
+    "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/tsan.supp ignore_noninstrumented_modules=1 halt_on_error=1")
 
 find_package(GTest REQUIRED)
 add_library(granflux_test_main STATIC "${CMAKE_SOURCE_DIR}/tests/support/mpi_main.cpp")

@@ -71,8 +71,9 @@ class References(unittest.TestCase):
         ratios = []
         for case in CASES:
             (self.folder / case.name).mkdir()
-            run_case(case, os.environ["GRANFLUX"], shlex.split(os.environ["MPIRUN"]),
-                     self.folder / case.name, LATE if LONG else HUNDRED, RANKS, THREADS)
+            output = run_case(case, os.environ["GRANFLUX"], shlex.split(os.environ["MPIRUN"]),
+                              self.folder / case.name, LATE if LONG else HUNDRED, RANKS, THREADS)
+            self.expect_path_of_threads(case, output)
             self.expect_equal(case, "first", "--step", "1", "--default", str(FIRST_TOLERANCE))
             self.expect_equal(case, "hundred", "--step", str(HUNDRED), "--default", str(HUNDRED_TOLERANCE))
             if case.history_size:
@@ -82,6 +83,13 @@ class References(unittest.TestCase):
                 self.expect_equal_statistics(case)
         if LONG:
             self.assertLessEqual(statistics.median(ratios), 1.0, sorted(ratios))
+
+    def expect_path_of_threads(self, case, output):
+        """That what is compared was computed by particle subset, not by LIGGGHTS' own loops."""
+        with self.subTest(f"{case.name} path"):
+            self.assertIn("granflux: contact forces by particle subset", output)
+            self.assertNotIn("LIGGGHTS' own", output)
+            self.assertRegex(output, rf"granflux: particle work of {RANKS} ranks? x {THREADS} threads?,")
 
     def expect_equal_contacts(self, case):
         columns = history_columns(case)

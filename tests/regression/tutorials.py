@@ -66,6 +66,7 @@ class Outcome:
     particles: int = 0
     exact: str = ""  # largest distance of a particle, relative to the largest of the snapshot
     worst_statistic: str = ""  # in units of its tolerance
+    contacts: str = ""  # by particle subset, or why not
     verdict: str = "differs"
 
     @property
@@ -88,7 +89,7 @@ def shortened(text, tutorial):
 
 
 def run(program, tutorial, folder, layout):
-    """Leaves the dump in the tutorial's folder below `folder`."""
+    """Leaves the dump in the tutorial's folder below `folder`; returns what the program says."""
     ranks, threads = layout.split("x")
     where = folder / tutorial.name
     if not where.exists():  # a second script of a tutorial starts where the first one ended
@@ -104,6 +105,13 @@ def run(program, tutorial, folder, layout):
         raise RuntimeError(f"{os.path.basename(program)}: {reason[0]}")
     for file in (where / "post").glob("*.vt*"):
         file.unlink()
+    return done.stdout
+
+
+def way_of_contacts(output):
+    """As granflux says at the beginning of its first run."""
+    said = re.search(r"granflux: contact forces (by particle subset|are LIGGGHTS' own: (.*) has no form)", output)
+    return "not said" if said is None else "subset" if said[2] is None else f"LIGGGHTS' own: {said[2]}"
 
 
 def compare(outcome, reference, other):
@@ -127,8 +135,8 @@ def compare(outcome, reference, other):
 def judged(tutorial, layout, folders):
     outcome = Outcome(tutorial, layout)
     try:
-        for program, folder in folders.items():
-            run(program, tutorial, folder, layout)
+        output = [run(program, tutorial, folder, layout) for program, folder in folders.items()][-1]
+        outcome.contacts = way_of_contacts(output)
         dumps = [next(read_dump(folder / tutorial.name / "end.dump")) for folder in folders.values()]
         compare(outcome, *dumps)
     except (RuntimeError, subprocess.TimeoutExpired) as problem:
@@ -149,9 +157,10 @@ is the state after the last step. Made again by
 * *statistic*: the one nearest to its tolerance, in units of it
   ([tolerances](../reference/granflux_regress.md)); it counts where the distance is more than 1e-10.
 * *layout*: ranks x threads of granflux; liggghts has the same ranks.
+* *contacts*: computed by particle subset, or by LIGGGHTS' own loop for the reason given.
 
-| tutorial | fraction | last step | particles | layout | distance | statistic | verdict |
-| --- | --- | --- | --- | --- | --- | --- | --- |
+| tutorial | fraction | last step | particles | layout | contacts | distance | statistic | verdict |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- |
 """
 TAIL = """
 `contactModels/in.oldModels` is not in the table: liggghts 3.8.0 itself refuses it (Invalid pair style
@@ -162,7 +171,7 @@ numbers of ranks are different beds, and are not compared.
 
 def table(outcomes, state):
     rows = [
-        f"| {o.tutorial.name}/{o.tutorial.script} | {o.tutorial.fraction:g} | {o.steps} | {o.particles} | {o.layout} | "
+        f"| {o.tutorial.name}/{o.tutorial.script} | {o.tutorial.fraction:g} | {o.steps} | {o.particles} | {o.layout} | {o.contacts} | "
         f"{o.exact} | {o.worst_statistic} | {o.verdict} |\n"
         for o in outcomes
     ]
