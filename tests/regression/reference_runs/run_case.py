@@ -3,8 +3,10 @@
 """Runs one case with one program, in a folder of its own."""
 
 import gzip
+import math
 import os
 import pathlib
+import random
 import subprocess
 
 from container import container_of
@@ -28,10 +30,18 @@ def read_packing(case):
     return [tuple(float(word) for word in line.split()) for line in text.splitlines()]
 
 
-def write_inputs(case, folder, steps, grid="* * *", skin=5e-4):
+def nudged(positions, seed):
+    """Every coordinate a last digit up or down."""
+    numbers = random.Random(seed)
+    return [tuple(math.nextafter(x, numbers.choice((-math.inf, math.inf))) for x in point) for point in positions]
+
+
+def write_inputs(case, folder, steps, grid="* * *", skin=5e-4, nudge=None):
     container = container_of(case)
     dense = case.density == "dense"
     positions = read_packing(case) if dense else dilute_positions(container, radii_of(case))
+    if nudge is not None:
+        positions = nudged(positions, nudge)
     (folder / "particles.data").write_text(data_file(case, container, positions))
     (folder / "in.case").write_text(script_of(case, container, steps, grid, skin))
     if case.container == "mesh":
@@ -39,9 +49,10 @@ def write_inputs(case, folder, steps, grid="* * *", skin=5e-4):
             (folder / name).write_text(text)
 
 
-def run_case(case, program, mpirun, folder, steps, ranks=1, threads=1, grid="* * *", skin=5e-4):
-    """Writes the inputs and runs them; returns what the program printed, raises if it failed."""
-    write_inputs(case, folder, steps, grid, skin)
+def run_case(case, program, mpirun, folder, steps, ranks=1, threads=1, grid="* * *", skin=5e-4, nudge=None):
+    """Writes the inputs and runs them; returns what the program printed, raises if it failed. nudge: seed
+    of a change of every position by its last digit, or None."""
+    write_inputs(case, folder, steps, grid, skin, nudge)
     command = [*mpirun, "-n", str(ranks), program, "-in", "in.case", "-log", "none"]
     done = subprocess.run(
         command,
