@@ -47,8 +47,8 @@ struct BoundedFace {
   float ghost_factor;
 };
 
-/// The error that single precision leaves, in units of the defect over the least share of inertia
-/// in a diagonal; some ten times what is seen (test_diffusion_solver.cpp).
+/// What single precision is trusted with in one correction: a share of the defect, over the least
+/// share of inertia in a diagonal. Numbers are rounded by 6e-8.
 constexpr double rounding = 1e-6;
 
 } // namespace
@@ -228,6 +228,8 @@ DiffusionSolver::Report DiffusionSolver::correct(const Unknown& unknown, const B
   const double tells = rounding / (1 - w); // of the defect, in single precision
   Report report;
   report.left = std::max(enough, tells * size);
+  // The bound holds in the norm that goes with the diagonal, and for exact numbers: half of what is
+  // left is aimed at.
   const double factor = w / (1 + std::sqrt(1 - w * w)); // of one iteration
   const double steps =
       w > 0 ? std::max(1.0, std::ceil(std::log(0.5 * report.left / size) / std::log(factor))) : 1;

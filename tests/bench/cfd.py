@@ -42,7 +42,7 @@ DEFAULT_TOLERANCE = 1e-10  # of a case file that gives none
 # Function of the program, by the first of these names in its symbol, and its part of a step.
 PARTS = {
     "pressure solver": r"Multigrid|PressureSolver|_plane|coarse|Coarse|scale_to_one|smooth_|spread",
-    "viscous solver": r"DiffusionSolver|cfd::diffusion\(|fill_velocity_correction",
+    "viscous solver": r"DiffusionSolver|cfd::diffusion\(",
     "convection": r"convect<|convect_momentum|Central|through",
     "rest of the predictor": r"predict|begin_momentum|add_new_friction|viscous_force|"
                              r"set_conductance|GasSolver::advance|move_inertia",
