@@ -17,6 +17,7 @@
 #include <granflux/coupling/drag/laws.hpp>
 #include <granflux/coupling/fluid_kick.hpp>
 #include <granflux/coupling/ledger.hpp>
+#include <granflux/coupling/nusselt/laws.hpp>
 #include <granflux/coupling/smoothing.hpp>
 #include <granflux/coupling/throw_together.hpp>
 #include <granflux/coupling/weights.hpp>
@@ -104,17 +105,20 @@ struct Coupler::Impl {
       : gas_case(c), options(o), mesh(cfd::make_box_mesh(cfd::box_grid(c), comm)), halo(mesh),
         gas(mesh, c), lattice(*mesh.lattice),
         kernel(VoidFractionKernels::make("void_fraction", o.void_fraction)),
-        drag(DragLaws::make("drag", o.drag)), exchange(mesh), ledger(comm),
-        momentum(cfd::make_exchange(mesh)), void_fraction(cfd::make_fields(mesh, 1)) {
+        drag(DragLaws::make("drag", o.drag)), nusselt(NusseltLaws::make("nusselt", o.nusselt)),
+        exchange(mesh), ledger(comm), momentum(cfd::make_exchange(mesh)),
+        void_fraction(cfd::make_fields(mesh, 1)) {
     if (!(o.void_fraction_floor > 0 && o.void_fraction_floor < 1))
       throw ConfigError("coupling: void_fraction_floor = " + text(o.void_fraction_floor) +
                         " must lie between 0 and 1");
     if (!(o.smoothing_width >= 0 && std::isfinite(o.smoothing_width)))
       throw ConfigError("coupling: smoothing_width = " + text(o.smoothing_width) +
                         " must be a number of particle diameters, 0 or more");
+    if (c.energy && c.energy->conductivity == 0 && o.heat_transfer_coefficient == 0)
+      throw ConfigError("[energy] conductivity: must be above 0, for Nusselt numbers count in it; "
+                        "[coupling] heat_transfer_coefficient does without");
     if (c.energy)
-      throw ConfigError("[energy]: heat is not exchanged with particles; a case with particles "
-                        "cannot have this table");
+      heat = {.coefficient = cfd::make_fields(mesh), .source = cfd::make_fields(mesh)};
     for (cfd::BlockFields& field : work)
       field = cfd::make_fields(mesh);
   }
@@ -133,6 +137,11 @@ struct Coupler::Impl {
   void set_momentum_exchange();
   void sample_new_gas();
   ExchangeSums book(const ParticleView& view, double interval);
+  void check_heat(const ParticleView& view) const;
+  template <class Law>
+  ExchangeSums charge_heat(const Law& law, const ParticleView& view, double interval);
+  void set_heat_exchange();
+  ExchangeSums book_heat(const ParticleView& view, double interval);
 
   template <bool some_fixed> Vec3 apply(const ParticleView& view, double dt, double share) const;
 
@@ -144,6 +153,7 @@ struct Coupler::Impl {
   LatticeLocator lattice;
   AnyKernel kernel;
   AnyDragLaw drag;
+  AnyNusseltLaw nusselt;
   Weights weights;
   WindowExchange exchange;
   std::optional<Smoothing> smoothing;
@@ -154,6 +164,7 @@ struct Coupler::Impl {
   bool initialised = false;
 
   cfd::MomentumExchange momentum;
+  cfd::HeatExchange heat; ///< empty without an energy equation
   cfd::BlockFields void_fraction;
   std::array<cfd::BlockFields, 6> work; ///< on gas cells, between messages and solver
 
@@ -162,6 +173,8 @@ struct Coupler::Impl {
   std::vector<Values<4>> old_gas;    ///< eps, u before the gas step
   std::vector<Values<4>> drag_terms; ///< b_eff, b_eff v - hand-over / T
   std::vector<Values<6>> new_gas;    ///< u, grad p after the gas step
+  std::vector<Values<2>> heat_terms; ///< hA_eff, hA_eff T - hand-over / interval
+  std::vector<Values<1>> new_heat;   ///< gas temperature after the gas step
 };
 
 void Coupler::Impl::locate(const ParticleView& view) {
@@ -192,6 +205,8 @@ void Coupler::Impl::smooth(std::size_t fields) {
     return;
   if (fields == 1)
     smoothing->apply({&work[0]});
+  else if (fields == 2)
+    smoothing->apply({&work[0], &work[1]});
   else if (fields == 4)
     smoothing->apply({&work[0], &work[1], &work[2], &work[3]});
   else
@@ -379,6 +394,78 @@ ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
   });
 }
 
+/// Throws on all ranks alike where the gas has a temperature and particles have none.
+void Coupler::Impl::check_heat(const ParticleView& view) const {
+  const bool without = gas_case.energy && view.heat.size() != view.size();
+  throw_together<ConfigError>(
+      mesh.comm,
+      without ? "[energy]: the particles have no temperature that the gas could change" : "");
+}
+
+/// Conductance between gas and every particle, and what the gas is to be charged for it.
+template <class Law>
+ExchangeSums Coupler::Impl::charge_heat(const Law& law, const ParticleView& view, double interval) {
+  const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
+  const double k = gas_case.energy->conductivity, given = options.heat_transfer_coefficient;
+  const double prandtl = given > 0 ? 1 : mu * gas_case.energy->heat_capacity / k;
+  heat_terms.resize(view.size());
+  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    HeatState& state = view.heat[p];
+    if (!weights.placed(p)) {
+      state = {};
+      heat_terms[p] = {};
+      return;
+    }
+    const auto& [eps, ux, uy, uz] = old_gas[p].of;
+    const double d = 2 * view.radius[p];
+    if (given > 0) {
+      state.conductance = std::numbers::pi * d * d * given;
+    } else {
+      const double slip = norm(Vec3{ux, uy, uz} - view.velocity[p]);
+      const NusseltInput in{
+          .reynolds = rho * eps * slip * d / mu, .prandtl = prandtl, .void_fraction = eps};
+      state.conductance = std::numbers::pi * d * k * law(in);
+      mine.nusselt_out_of_range += law.valid.contains(in) ? 0 : 1;
+    }
+    const bool fixed = !view.fixed_temperature.empty() && view.fixed_temperature[p];
+    const double capacity = view.heat_capacity[p];
+    const double effective =
+        fixed ? state.conductance : effective_coefficient(state.conductance, capacity, interval);
+    const double hand_over = state.received - state.booked;
+    heat_terms[p] = {{effective, effective * view.temperature[p] - hand_over / interval}};
+    mine.heat_handed_over += hand_over;
+    mine.heat_exchanged += std::abs(hand_over);
+    if (!fixed)
+      mine.heat_stiffness_max =
+          std::max(mine.heat_stiffness_max, state.conductance * interval / capacity);
+  });
+}
+
+void Coupler::Impl::set_heat_exchange() {
+  deposit(heat_terms);
+  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+    cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
+      heat.coefficient[b][c] = work[0][b][c];
+      heat.source[b][c] = work[1][b][c];
+    });
+}
+
+/// What the gas step took from the gas for each particle.
+ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval) {
+  work[0] = *gas.temperature();
+  sample(new_heat);
+  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    if (!weights.placed(p))
+      return;
+    HeatState& state = view.heat[p];
+    state.gas_temperature = new_heat[p].of[0];
+    state.booked = interval * heat_terms[p].of[0] * (state.gas_temperature - view.temperature[p]);
+    state.received = 0;
+    mine.heat_booked += state.booked;
+    mine.heat_exchanged += std::abs(state.booked);
+  });
+}
+
 template <bool some_fixed>
 Vec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) const {
   const Vec3 weight_of_gas = -gas.fluid().density * gas.fluid().gravity;
@@ -426,8 +513,10 @@ void Coupler::initialise(const ParticleView& view, double time) {
   }
   throw_together<ConfigError>(s.mesh.comm, complaint);
 
+  s.check_heat(view);
   for (std::size_t p = 0; p < view.size(); ++p)
     view.fluid[p] = {};
+  std::fill(view.heat.begin(), view.heat.end(), HeatState{});
   ExchangeSums sums;
   s.find_void_fraction(view, sums);
   s.gas.initialise(s.void_fraction, s.gas_case.initial_velocity, time);
@@ -444,12 +533,22 @@ const ExchangeReport& Coupler::exchange(const ParticleView& view, double interva
   s.sample_old_gas();
   sums += std::visit([&](const auto& law) { return s.charge(law, view, interval); }, s.drag);
   s.set_momentum_exchange();
+  const bool with_heat = s.gas_case.energy.has_value();
+  if (with_heat) {
+    s.check_heat(view);
+    sums +=
+        std::visit([&](const auto& law) { return s.charge_heat(law, view, interval); }, s.nusselt);
+    s.set_heat_exchange();
+  }
   {
     const Stopwatch watch(s.times.gas);
-    s.report.gas = s.gas.advance(interval, s.void_fraction, &s.momentum);
+    s.report.gas =
+        s.gas.advance(interval, s.void_fraction, &s.momentum, with_heat ? &s.heat : nullptr);
   }
   s.sample_new_gas();
   sums += s.book(view, interval);
+  if (with_heat)
+    sums += s.book_heat(view, interval);
   s.ledger.close(sums, s.gas.balance(), interval, s.report);
   return s.report;
 }
@@ -459,6 +558,10 @@ void Coupler::apply(const ParticleView& view, double dt, double share) {
   const Stopwatch watch(s.times.force);
   s.ledger.received(view.fixed.empty() ? s.apply<false>(view, dt, share)
                                        : s.apply<true>(view, dt, share));
+}
+
+void Coupler::received_heat(double heat) {
+  impl_->ledger.received_heat(heat);
 }
 
 void Coupler::unapply(const ParticleView& view, double dt, double share) {

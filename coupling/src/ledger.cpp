@@ -10,13 +10,12 @@
 
 namespace granflux::coupling {
 
-namespace {
-
 /// All that travels in the one reduction of an exchange.
-struct Books {
+struct Ledger::Books {
   ExchangeSums sums;
   CompensatedVec3 applied, booked_before, handed_over_before;
   CompensatedSum exchanged_before;
+  CompensatedSum heat_applied, heat_booked_before, heat_handed_over_before, heat_exchanged_before;
 
   Books& operator+=(const Books& o) & {
     sums += o.sums;
@@ -24,12 +23,16 @@ struct Books {
     booked_before += o.booked_before;
     handed_over_before += o.handed_over_before;
     exchanged_before += o.exchanged_before;
+    heat_applied += o.heat_applied;
+    heat_booked_before += o.heat_booked_before;
+    heat_handed_over_before += o.heat_handed_over_before;
+    heat_exchanged_before += o.heat_exchanged_before;
     return *this;
   }
 };
-static_assert(std::is_trivially_copyable_v<Books>);
 
-void add_books(void* in, void* inout, int* count, MPI_Datatype*) {
+void Ledger::add_books(void* in, void* inout, int* count, MPI_Datatype*) {
+  static_assert(std::is_trivially_copyable_v<Books>);
   for (int i = 0; i < *count; ++i) {
     Books a, b;
     char* at = static_cast<char*>(inout) + std::size_t(i) * sizeof(Books);
@@ -39,6 +42,8 @@ void add_books(void* in, void* inout, int* count, MPI_Datatype*) {
     std::memcpy(at, &a, sizeof a);
   }
 }
+
+namespace {
 
 void push(std::vector<double>& state, const CompensatedSum& s) {
   state.push_back(s.high);
@@ -74,6 +79,11 @@ ExchangeSums& ExchangeSums::operator+=(const ExchangeSums& o) & {
   slip_reynolds_max = std::max(slip_reynolds_max, o.slip_reynolds_max);
   stiffness_max = std::max(stiffness_max, o.stiffness_max);
   void_fraction_min = std::min(void_fraction_min, o.void_fraction_min);
+  nusselt_out_of_range += o.nusselt_out_of_range;
+  heat_stiffness_max = std::max(heat_stiffness_max, o.heat_stiffness_max);
+  heat_booked += o.heat_booked;
+  heat_handed_over += o.heat_handed_over;
+  heat_exchanged += o.heat_exchanged;
   return *this;
 }
 
@@ -88,13 +98,39 @@ Ledger::~Ledger() {
   MPI_Type_free(&type_);
 }
 
+/// As for momentum, below.
+void Ledger::close_heat(const Books& all, double interval, ExchangeReport& report) const {
+  const ExchangeSums& sums = all.sums;
+  report.nusselt_out_of_range = long(sums.nusselt_out_of_range);
+  report.heat_stiffness_max = sums.heat_stiffness_max;
+  report.heat_rate = (sums.heat_booked.value() + sums.heat_handed_over.value()) / interval;
+  CompensatedSum missing = all.heat_booked_before;
+  missing += all.heat_handed_over_before;
+  missing += sums.heat_handed_over;
+  missing += -all.heat_applied;
+  report.heat_to_particles = all.heat_applied.value();
+  report.heat_in_transit = sums.heat_booked.value();
+  report.heat_carried_out = missing.value();
+  report.heat_from_gas = heat_from_gas_.value();
+  const double remainder = report.heat_from_gas - report.heat_to_particles -
+                           report.heat_in_transit - report.heat_carried_out;
+  CompensatedSum exchanged = all.heat_exchanged_before;
+  exchanged += sums.heat_exchanged;
+  report.heat_residual = remainder == 0 ? 0 : std::abs(remainder) / exchanged.value();
+}
+
 void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double interval,
                    ExchangeReport& report) {
-  Books mine{local, applied_, booked_, handed_over_, exchanged_};
+  Books mine{local,         applied_,     booked_,           handed_over_,   exchanged_,
+             heat_applied_, heat_booked_, heat_handed_over_, heat_exchanged_};
   booked_ += local.booked;
   handed_over_ += local.handed_over;
   exchanged_ += local.exchanged;
   from_gas_ += -interval * gas.exchange;
+  heat_booked_ += local.heat_booked;
+  heat_handed_over_ += local.heat_handed_over;
+  heat_exchanged_ += local.heat_exchanged;
+  heat_from_gas_ += -interval * gas.heat_exchange;
 
   Books all;
   MPI_Allreduce(&mine, &all, 1, type_, op_, comm_);
@@ -130,6 +166,8 @@ void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double in
   const double scale = exchanged.value();
   report.momentum_residual = norm(remainder) > 0 ? norm(remainder) / scale : 0;
 
+  close_heat(all, interval, report);
+
   // Gas and particles as one: the gas's own terms against what the particles' side booked.
   const Vec3 to_particles = (sums.booked.value() + sums.handed_over.value()) / interval;
   const Vec3 open = gas.momentum_change - gas.convection - gas.friction - gas.pressure -
@@ -139,6 +177,9 @@ void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double in
 
 std::vector<double> Ledger::save() const {
   std::vector<double> state;
+  for (const CompensatedSum* heat :
+       {&heat_applied_, &heat_booked_, &heat_handed_over_, &heat_exchanged_, &heat_from_gas_})
+    push(state, *heat);
   push(state, applied_);
   push(state, booked_);
   push(state, handed_over_);
@@ -152,6 +193,9 @@ void Ledger::load(const std::vector<double>& state) {
     throw ConfigError("restart: the coupling ledger has " + std::to_string(state.size()) +
                       " numbers, expected " + std::to_string(save().size()));
   const double* at = state.data();
+  for (CompensatedSum* heat :
+       {&heat_applied_, &heat_booked_, &heat_handed_over_, &heat_exchanged_, &heat_from_gas_})
+    at = pull(at, *heat);
   at = pull(at, applied_);
   at = pull(at, booked_);
   at = pull(at, handed_over_);

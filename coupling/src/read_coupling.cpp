@@ -4,6 +4,7 @@
 
 #include <granflux/coupling/drag/laws.hpp>
 #include <granflux/coupling/kernel/kernels.hpp>
+#include <granflux/coupling/nusselt/laws.hpp>
 
 namespace granflux::coupling {
 
@@ -11,6 +12,22 @@ namespace {
 
 template <class List> std::vector<std::string> names_of() {
   return {List::names.begin(), List::names.end()};
+}
+
+/// How gas and particles exchange heat: by a law, or with a given coefficient.
+void read_heat_transfer(cfd::CaseFile& file, const cfd::CaseTable& table,
+                        CouplingOptions& options) {
+  if (!file.has("energy")) {
+    for (const char* key : {"nusselt", "heat_transfer_coefficient"})
+      table.refuse(key, "the case has no [energy] table");
+    return;
+  }
+  if (table.has("heat_transfer_coefficient")) {
+    table.refuse("nusselt", "the case gives a heat_transfer_coefficient");
+    options.heat_transfer_coefficient =
+        table.number("heat_transfer_coefficient", cfd::positive, "W/(m2 K)");
+  }
+  options.nusselt = table.word("nusselt", options.nusselt, names_of<NusseltLaws>());
 }
 
 } // namespace
@@ -23,6 +40,7 @@ CouplingOptions read_coupling(cfd::CaseFile& file) {
   options.drag = table.word("drag", options.drag, names_of<DragLaws>());
   options.void_fraction =
       table.word("void_fraction", options.void_fraction, names_of<VoidFractionKernels>());
+  read_heat_transfer(file, table, options);
   options.smoothing_width = table.number("smoothing_width", options.smoothing_width,
                                          cfd::not_negative, "particle diameters");
   options.model =

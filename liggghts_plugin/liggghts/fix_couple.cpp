@@ -36,8 +36,10 @@ namespace granflux::liggghts {
 
 namespace {
 
-constexpr int vector_length = 29; // entries of compute_vector
+constexpr int vector_length = 36; // entries of compute_vector
 constexpr char fluid_property[] = "granflux_fluid";
+constexpr char heat_property[] = "granflux_heat_state";
+constexpr char gas_temperature_property[] = "gasTemperature";
 constexpr double stiffness_limit = 1.5; // docs/theory_coupling.md, section 7
 constexpr double half_kick = 0.5;       // of velocity Verlet: before and after the force
 
@@ -122,6 +124,11 @@ void FixCouple::post_create() {
   drag_force_ = property("dragforce", 3, false, own_drag_force_);
   void_fraction_ = property("voidfraction", 1, false, own_void_fraction_);
   gas_velocity_ = property("uf", 3, false, own_gas_velocity_);
+  if (gas_case_.energy) {
+    bool own_states = false;
+    heat_states_ = property(heat_property, coupling::heat_state_doubles, true, own_states);
+    gas_temperature_ = property(gas_temperature_property, 1, false, own_gas_temperature_);
+  }
   const int held =
       options_.fixed_group.empty() ? 0 : group->bitmask[group->find(options_.fixed_group.c_str())];
   host_ = std::make_unique<HostView>(lmp, *fluid_, groupbit, held);
@@ -131,9 +138,12 @@ void FixCouple::pre_delete(bool unfix) {
   if (!unfix)
     return;
   modify->delete_fix(fluid_property, true);
+  if (heat_states_)
+    modify->delete_fix(heat_property, true);
   for (const auto& [own, name] :
        {std::pair(own_drag_force_, "dragforce"), std::pair(own_void_fraction_, "voidfraction"),
-        std::pair(own_gas_velocity_, "uf")})
+        std::pair(own_gas_velocity_, "uf"),
+        std::pair(own_gas_temperature_, gas_temperature_property)})
     if (own)
       modify->delete_fix(name, true);
 }
@@ -208,6 +218,7 @@ void FixCouple::begin() {
 void FixCouple::setup(int) {
   guard([&] {
     host_->find_held();
+    find_heat();
     if (!coupler_)
       begin();
     start_run();
@@ -223,6 +234,21 @@ void FixCouple::setup(int) {
     fill_outputs();
     start_timers(); // LIGGGHTS' own begin after the set-up too
   });
+}
+
+/// Where the gas has a temperature, those of the particles are integrated together with it.
+void FixCouple::find_heat() {
+  if (!gas_case_.energy)
+    return;
+  heat_ = nullptr;
+  for (int i = 0; i < modify->nfix; ++i)
+    if (auto* heat = dynamic_cast<FixHeat*>(modify->fix[i]))
+      heat_ = heat;
+  if (!heat_)
+    throw ConfigError("the case has an [energy] table, but particles have no temperature: define "
+                      "fix granflux/heat");
+  heat_->leave_steps_to_gas();
+  host_->set_heat(heat_, heat_states_);
 }
 
 /// Counts from zero; also at the first step of a run without set-up (`run N pre no`).
@@ -253,6 +279,9 @@ void FixCouple::pre_final_integrate() {
           fmt::format("the time step changed from {} to {} s within a run: it must be "
                       "constant (no fix dt/reset)",
                       clock_.time_step(), update->dt));
+    // Up to here with the gas that was ahead: an interval has all its steps before the next.
+    if (heat_)
+      coupler_->received_heat(heat_->step_with_gas(host_->heat_states()));
     clock_.count_step();
     const bool coupling_step = clock_.due();
     if (coupling_step)
@@ -318,6 +347,8 @@ void FixCouple::fill_outputs() {
       gas_velocity_->array_atom[i][d] = state.gas_velocity[d];
     }
     void_fraction_->vector_atom[i] = state.void_fraction;
+    if (heat_)
+      gas_temperature_->vector_atom[i] = view.heat[i].gas_temperature;
   }
 }
 
@@ -405,6 +436,13 @@ double FixCouple::compute_vector(int n) {
       times.force,
       report.budget_residual,
       report.stiffness_max,
+      report.heat_rate,
+      relative_heat_residual(balance),
+      report.heat_residual,
+      report.heat_stiffness_max,
+      double(report.nusselt_out_of_range),
+      balance.heat_convection,
+      balance.heat_conduction,
   };
   return values[std::size_t(n) - 1];
 }

@@ -14,6 +14,7 @@
 #include "couple_clock.hpp"
 #include "couple_options.hpp"
 #include "couple_restart.hpp"
+#include "fix_heat.hpp"
 #include "host_view.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
@@ -58,6 +59,7 @@ private:
   void apply(double share);
   void write_fields();
   void fill_outputs();
+  void find_heat();
   void say(const std::string& text) const;
   double pressure_drop();
 
@@ -72,7 +74,11 @@ private:
   LAMMPS_NS::FixPropertyAtom* drag_force_ = nullptr;
   LAMMPS_NS::FixPropertyAtom* void_fraction_ = nullptr;
   LAMMPS_NS::FixPropertyAtom* gas_velocity_ = nullptr;
-  bool own_drag_force_ = false, own_void_fraction_ = false, own_gas_velocity_ = false;
+  LAMMPS_NS::FixPropertyAtom* heat_states_ = nullptr;     // only where the gas has a temperature
+  LAMMPS_NS::FixPropertyAtom* gas_temperature_ = nullptr; // likewise
+  FixHeat* heat_ = nullptr;                               // likewise
+  bool own_drag_force_ = false, own_void_fraction_ = false, own_gas_velocity_ = false,
+       own_gas_temperature_ = false;
 
   std::unique_ptr<HostView> host_;
   std::unique_ptr<coupling::Coupler> coupler_; // from the first run on

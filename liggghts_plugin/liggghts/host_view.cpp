@@ -11,6 +11,8 @@
 #include <liggghts/fix_property_atom.h>
 #include <liggghts/modify.h>
 
+#include "fix_heat.hpp"
+
 namespace granflux::liggghts {
 
 namespace {
@@ -62,11 +64,20 @@ coupling::ParticleView HostView::particles(bool with_id) {
     });
     view.fixed = fixed_;
   }
+  if (heat_) {
+    heat_->show_to_gas(view);
+    view.heat = {heat_states(), n};
+  }
   if (with_id && atom->tag_enable) {
     id_.assign(atom->tag, atom->tag + n);
     view.id = id_;
   }
   return view;
+}
+
+coupling::HeatState* HostView::heat_states() const {
+  double** array = heat_states_->array_atom;
+  return array ? reinterpret_cast<coupling::HeatState*>(array[0]) : nullptr;
 }
 
 void HostView::clear_frozen_forces() {

@@ -15,6 +15,8 @@ class FixPropertyAtom;
 
 namespace granflux::liggghts {
 
+class FixHeat;
+
 /// The particles of this rank as the coupling library sees them. Positions, velocities and forces
 /// are LIGGGHTS' own arrays; the fluid states live in a fix property/atom, so that they move, are
 /// deleted and are written to restart files with their particles.
@@ -32,11 +34,20 @@ public:
   /// to name a particle.
   [[nodiscard]] coupling::ParticleView particles(bool with_id);
 
+  /// The same with temperatures, where there are any.
+  void set_heat(FixHeat* heat, LAMMPS_NS::FixPropertyAtom* states) {
+    heat_ = heat;
+    heat_states_ = states;
+  }
+  [[nodiscard]] coupling::HeatState* heat_states() const;
+
   /// As fix freeze does, which ran before the fluid force was added.
   void clear_frozen_forces();
 
 private:
   LAMMPS_NS::FixPropertyAtom& fluid_;
+  FixHeat* heat_ = nullptr;
+  LAMMPS_NS::FixPropertyAtom* heat_states_ = nullptr;
   int group_bit_, held_bit_;
   int frozen_bits_ = 0, moved_bits_ = 0;
   std::vector<std::int64_t> id_;

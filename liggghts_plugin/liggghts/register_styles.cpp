@@ -11,6 +11,7 @@
 #include <liggghts/modify.h>
 
 #include "fix_couple.hpp"
+#include "fix_heat.hpp"
 #include "launch_options.hpp"
 #include "particle_subset/take_over.hpp"
 
@@ -43,6 +44,7 @@ template <class Style> Fix* create(LAMMPS* lammps, int narg, char** arg) {
 void granflux::liggghts::register_styles(LAMMPS& lammps) {
   auto& styles = *(lammps.modify->*fix_map_member(FixMapTag{}));
   styles["granflux/couple"] = create<FixCouple>;
+  styles["granflux/heat"] = create<FixHeat>;
   if (launch_options().subset)
     particle_subset::take_over(lammps, styles);
 }

@@ -4,6 +4,7 @@
 #include "run_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -36,12 +37,20 @@ double relative_momentum_residual(const cfd::Balance& balance) {
   return relative(norm(balance.momentum_residual), balance.momentum_scale);
 }
 
+double relative_heat_residual(const cfd::Balance& balance) {
+  return relative(std::abs(balance.heat_residual), balance.heat_scale);
+}
+
 void LargestResiduals::add(const coupling::ExchangeReport& report, const cfd::Balance& balance) {
   void_volume = std::max(void_volume, report.volume_residual);
   momentum = std::max(momentum, report.momentum_residual);
   gas_mass = std::max(gas_mass, relative_continuity_residual(report.gas));
   gas_momentum = std::max(gas_momentum, relative_momentum_residual(balance));
   budget = std::max(budget, report.budget_residual);
+  with_heat = with_heat || balance.heat_scale > 0;
+  gas_heat = std::max(gas_heat, relative_heat_residual(balance));
+  heat = std::max(heat, report.heat_residual);
+  nusselt_out_of_range = std::max(nusselt_out_of_range, report.nusselt_out_of_range);
   stiffness = std::max(stiffness, report.stiffness_max);
   courant = std::max(courant, report.gas.courant);
   void_fraction_min = std::min(void_fraction_min, report.void_fraction_min);
@@ -89,12 +98,19 @@ std::string run_report(const RunTimes& times, const LargestResiduals& largest,
   value("residual of gas mass", largest.gas_mass);
   value("residual of gas momentum", largest.gas_momentum);
   value("residual of momentum of gas and exchange", largest.budget);
+  if (largest.with_heat) {
+    value("residual of gas heat", largest.gas_heat);
+    value("residual of heat handed over", largest.heat);
+  }
   value("Courant number", largest.courant);
   value("coupling interval over response time", largest.stiffness);
   value("smallest void fraction", largest.void_fraction_min);
   text += fmt::format("  {:<42}{:>11}\n", "particles outside the gas grid", largest.outside);
   text += fmt::format("  {:<42}{:>11}\n", "particles outside the drag law's range",
                       largest.law_out_of_range);
+  if (largest.with_heat)
+    text += fmt::format("  {:<42}{:>11}\n", "particles outside the Nusselt law's range",
+                        largest.nusselt_out_of_range);
   return text;
 }
 

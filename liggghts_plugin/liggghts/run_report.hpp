@@ -25,7 +25,11 @@ struct LargestResiduals {
   double gas_mass = 0;     ///< continuity residual over the scale of its terms
   double gas_momentum = 0; ///< momentum budget of the gas over the scale of its terms
   double budget = 0;       ///< ExchangeReport::budget_residual
-  double stiffness = 0;    ///< ExchangeReport::stiffness_max
+  bool with_heat = false;  ///< the gas has a temperature
+  double gas_heat = 0;     ///< heat budget of the gas over the scale of its terms
+  double heat = 0;         ///< ExchangeReport::heat_residual
+  long nusselt_out_of_range = 0;
+  double stiffness = 0; ///< ExchangeReport::stiffness_max
   double courant = 0;
   double void_fraction_min = 1; ///< smallest
   long outside = 0;             ///< particles of the group outside the gas grid
@@ -38,6 +42,7 @@ struct LargestResiduals {
 /// Residuals relative to the scale of their own terms; 0 where all terms vanish.
 double relative_continuity_residual(const cfd::StepReport& gas);
 double relative_momentum_residual(const cfd::Balance& balance);
+double relative_heat_residual(const cfd::Balance& balance);
 
 /// The table at the end of a run. particle_steps: sum over steps of the particles of all ranks.
 std::string run_report(const RunTimes& times, const LargestResiduals& largest,

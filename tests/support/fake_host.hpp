@@ -75,7 +75,16 @@ public:
     return {id[p], position[p], velocity[p], radius[p], mass[p], double(fixed[p]), fluid[p]};
   }
   coupling::ParticleView view() {
-    return {position, velocity, force, radius, mass, id, fluid, {}, fixed};
+    coupling::ParticleView all;
+    all.position = position;
+    all.velocity = velocity;
+    all.force = force;
+    all.radius = radius;
+    all.mass = mass;
+    all.id = id;
+    all.fluid = fluid;
+    all.fixed = fixed;
+    return all;
   }
 
   /// One leapfrog step: drift, forces, perhaps a coupling step over `interval`, kick.

@@ -19,6 +19,26 @@ struct Contact {
   double reduced_mass;   ///< mi mj / (mi + mj); the other's mass where one is frozen
 };
 
+/// Powers that a contact turns into heat [W]. A kernel without heat leaves out what makes them.
+struct Dissipation {
+  double sliding = 0; ///< by the slider: its own displacement against its force
+  /// mu |F_n| |slip| while the contact slides: Eq. 8 of Amritkar, Deb, Tafti (2014).
+  double sliding_by_speed = 0;
+  double damping = 0; ///< by dashpots
+};
+
+/// On i, with the heat that it makes.
+struct TangentialForce {
+  Vec3 force;
+  Dissipation heat;
+};
+
+/// Slip at the middle of the two half steps of velocity around a force: the force changes it in
+/// between. A tangential force moves surfaces of spheres 7/2 times as easily as their centres.
+[[nodiscard]] inline Vec3 mean_slip(const Contact& c, const Vec3& tangential_force, double dt) {
+  return c.slip + (0.5 * 3.5 * dt / c.reduced_mass) * tangential_force;
+}
+
 /// What a normal law hands on to the laws that follow it.
 struct NormalForce {
   double force;     ///< on i along the normal; negative if it pulls
@@ -26,5 +46,11 @@ struct NormalForce {
   double tangential_stiffness;
   double tangential_damping; ///< 0 where the script switches it off
 };
+
+/// Power of the normal dashpot [W], with the speed at the middle of the half steps around it.
+[[nodiscard]] inline double damping_power(const Contact& c, const NormalForce& normal, double dt) {
+  const double speed = c.normal_speed + 0.5 * dt / c.reduced_mass * normal.force;
+  return (normal.stiffness * c.overlap - normal.force) * speed;
+}
 
 } // namespace granflux::particle_subset

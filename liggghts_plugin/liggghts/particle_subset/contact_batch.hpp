@@ -77,10 +77,12 @@ private:
 };
 
 /// Evaluates the first `count` pairs, rounded up to whole groups of lanes: each lane goes through
-/// the same instructions, so that a pair's result does not depend on its place.
-template <class Law, bool one_material>
+/// the same instructions, so that a pair's result does not depend on its place. `heat` takes what
+/// the contacts make of it, if any.
+template <class Law, bool one_material, class Heat>
 [[gnu::flatten]] void evaluate(ContactBatch& b, int count,
-                               const BatchConstants<Law, one_material>& constants, double dt) {
+                               const BatchConstants<Law, one_material>& constants, double dt,
+                               Heat& heat) {
   const int whole_groups =
       (count + ContactBatch::lanes - 1) / ContactBatch::lanes * ContactBatch::lanes;
 #pragma GCC ivdep
@@ -96,6 +98,8 @@ template <class Law, bool one_material>
       b.tangential_history.set(k, tangential);
     if constexpr (Law::has_rolling_history)
       b.rolling_history.set(k, rolling);
+    if constexpr (Heat::acts)
+      heat.set(k, f);
   }
 }
 

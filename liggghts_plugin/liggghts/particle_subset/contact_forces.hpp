@@ -6,20 +6,22 @@
 
 #include "contact_batch.hpp"
 #include "contact_lists.hpp"
+#include "heat_batch.hpp"
 
 namespace granflux::particle_subset {
 
 /// The contact forces of one thread: goes along its rows, takes the pairs that touch and hands them
-/// to the law in batches. Writes only what belongs to the particles of the range.
-template <class Law, bool one_material> class ContactForces {
+/// to the law in batches. Writes only what belongs to the particles of the range. Heat: HeatBatch,
+/// or WithoutHeat where there is none.
+template <class Law, bool one_material, class Heat> class ContactForces {
 public:
   using Constants = typename Law::Constants;
 
   /// `constants`: of each pair of the `types` types.
   ContactForces(const Particles& particles, ThreadContacts& contacts, const Constants* constants,
-                int types, double dt)
+                int types, double dt, const typename Heat::Source& heat)
       : p_(particles), contacts_(contacts), constants_(constants), types_(types), dt_(dt),
-        own_(contacts.own), batch_constants_(constants[0]) {}
+        heat_(heat), own_(contacts.own), batch_constants_(constants[0]) {}
 
   /// Along the lower rows, all of them.
   void add_lower() {
@@ -81,13 +83,17 @@ private:
       __builtin_prefetch(p_.spin + p);
       __builtin_prefetch(p_.torque + p, 1);
     }
+    if constexpr (Heat::acts)
+      heat_.prefetch(p);
   }
 
   void finish(ContactRows& rows, int count) {
     if (count == 0)
       return;
     gather(rows, count);
-    evaluate(batch_, count, batch_constants_, dt_);
+    evaluate(batch_, count, batch_constants_, dt_, heat_);
+    if constexpr (Heat::acts)
+      heat_.evaluate(batch_, count);
     scatter(rows, count);
   }
 
@@ -107,6 +113,8 @@ private:
         batch_constants_.set(k, constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1]);
       if constexpr (Law::history > 0)
         get_history(&rows.history[std::size_t(batch_.entry[k]) * Law::history], k);
+      if constexpr (Heat::acts)
+        heat_.gather(k, i, j, p_.type);
     }
     if (p_.frozen_group)
       freeze(count);
@@ -153,10 +161,15 @@ private:
       }
       // Along a row the force on its particle stays in registers.
       Vec3 force = p_.force[i], torque = p_.torque[i];
+      [[maybe_unused]] HeatRates rates;
+      if constexpr (Heat::acts)
+        rates = heat_.rates(i);
       for (; k < count && batch_.i[k] == i; ++k) {
         force += batch_.force.at(k);
         if constexpr (Law::turns)
           torque += batch_.torque_i.at(k);
+        if constexpr (Heat::acts)
+          heat_.add_to_i(rates, k);
         if (own_.holds(batch_.j[k]))
           add_to_partner(k);
         put_memory(rows, k);
@@ -164,6 +177,8 @@ private:
       p_.force[i] = force;
       if constexpr (Law::turns)
         p_.torque[i] = torque;
+      if constexpr (Heat::acts)
+        heat_.rates(i) = rates;
     }
   }
 
@@ -172,6 +187,8 @@ private:
     p_.force[j] -= batch_.force.at(k);
     if constexpr (Law::turns)
       p_.torque[j] += batch_.torque_j.at(k);
+    if constexpr (Heat::acts)
+      heat_.add_to_j(j, k);
   }
 
   void put_memory(ContactRows& rows, int k) const {
@@ -204,6 +221,7 @@ private:
   const Constants* constants_;
   int types_;
   double dt_;
+  [[no_unique_address]] Heat heat_;
   const Range own_;
   ContactBatch batch_{};
   BatchConstants<Law, one_material> batch_constants_;

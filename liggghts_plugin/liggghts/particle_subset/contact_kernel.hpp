@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "contact_heat.hpp"
 #include "contact_lists.hpp"
 #include "material.hpp"
 
@@ -25,13 +26,17 @@ public:
   virtual void read(const Material& material, int types) = 0;
   /// Adds the forces and torques on the particles of one thread, and brings its histories to the
   /// end of the step of `dt` seconds. Called by each thread for its own contacts: those with lower
-  /// particles of other threads first, then its own rows, in one go or block after block.
-  virtual void add_lower(const Particles& particles, ThreadContacts& contacts, double dt) const = 0;
+  /// particles of other threads first, then its own rows, in one go or block after block. `heat`:
+  /// what the contacts make and conduct of it is added too, by a loop of its own, so that the one
+  /// without has nothing of it; null: none.
+  virtual void add_lower(const Particles& particles, ThreadContacts& contacts, double dt,
+                         const HeatOfContacts* heat = nullptr) const = 0;
   virtual void add_upper(const Particles& particles, ThreadContacts& contacts, Range block,
-                         double dt) const = 0;
-  void add(const Particles& particles, ThreadContacts& contacts, double dt) const {
-    add_lower(particles, contacts, dt);
-    add_upper(particles, contacts, contacts.own, dt);
+                         double dt, const HeatOfContacts* heat = nullptr) const = 0;
+  void add(const Particles& particles, ThreadContacts& contacts, double dt,
+           const HeatOfContacts* heat = nullptr) const {
+    add_lower(particles, contacts, dt, heat);
+    add_upper(particles, contacts, contacts.own, dt, heat);
   }
 };
 

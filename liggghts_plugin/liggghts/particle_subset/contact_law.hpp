@@ -23,6 +23,8 @@ struct TouchingPair {
 struct ContactForce {
   Vec3 force; ///< on i; the opposite on j
   Vec3 torque_i, torque_j;
+  double pressing; ///< normal force without cohesion [N]
+  Dissipation heat;
 };
 
 /// One choice of laws, put together by the compiler: an effect that is off leaves no instruction.
@@ -74,15 +76,24 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
       c.relative_spin = p.spin_i - p.spin_j;
 
     NormalForce normal = Normal::force(k.normal, c);
-    ContactForce f{.force = normal.force * c.normal, .torque_i = {}, .torque_j = {}};
+    ContactForce f{.force = normal.force * c.normal,
+                   .torque_i = {},
+                   .torque_j = {},
+                   .pressing = normal.force,
+                   .heat = {}};
+    f.heat.damping = damping_power(c, normal, dt);
     if constexpr (Cohesion::acts) {
       const double pull = Cohesion::force(k.cohesion, c);
       f.force += pull * c.normal;
       normal.force += k.cohesion.in_friction * pull;
     }
     if constexpr (Tangential::acts) {
-      const Vec3 tangential = Tangential::force(k.tangential, c, normal, dt, tangential_history);
+      const auto [tangential, heat] =
+          Tangential::force(k.tangential, c, normal, dt, tangential_history);
       f.force += tangential;
+      f.heat.sliding = heat.sliding;
+      f.heat.sliding_by_speed = heat.sliding_by_speed;
+      f.heat.damping += heat.damping;
       const Vec3 moment = cross(c.normal, tangential);
       f.torque_i = -arm_i * moment;
       f.torque_j = -arm_j * moment;

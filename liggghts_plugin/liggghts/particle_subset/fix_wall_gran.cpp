@@ -19,6 +19,7 @@
 #include <liggghts/multi_vector_container.h>
 #include <liggghts/neighbor.h>
 #include <liggghts/primitive_wall.h>
+#include <liggghts/properties.h>
 #include <liggghts/tri_mesh.h>
 #include <liggghts/update.h>
 
@@ -77,7 +78,8 @@ std::vector<char*> model_words(int narg, char** arg, int options) {
 /// Touches of one thread, evaluated some at a time.
 class FixWallGran::Batch {
 public:
-  Batch(FixWallGran& fix, int wall_type) : fix_(fix), wall_type_(wall_type) {}
+  Batch(FixWallGran& fix, int wall_type, const HeatOfWall& heat)
+      : fix_(fix), wall_type_(wall_type), heat_(heat) {}
   ~Batch() { evaluate(); }
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
@@ -93,8 +95,13 @@ private:
   static constexpr std::size_t capacity = 32;
 
   void evaluate() {
+    if (count_ == 0) // as ever where LIGGGHTS' own law is at work and there is no kernel
+      return;
     const std::span touches(touch_.data(), count_);
-    fix_.kernel_->add(fix_.particles_, touches, wall_type_, fix_.update->dt);
+    if (fix_.makes_heat_)
+      fix_.kernel_->add_with_heat(fix_.particles_, touches, wall_type_, fix_.update->dt, heat_);
+    else
+      fix_.kernel_->add(fix_.particles_, touches, wall_type_, fix_.update->dt);
     for (std::size_t k = 0; k < count_; ++k) {
       const Vec3& force = touch_[k].force;
       if (fix_.store_force_)
@@ -111,6 +118,7 @@ private:
 
   FixWallGran& fix_;
   int wall_type_;
+  const HeatOfWall& heat_;
   std::size_t count_ = 0;
   std::array<WallTouch, capacity> touch_;
   std::array<ForceOnMesh*, capacity> on_mesh_;
@@ -125,8 +133,16 @@ FixWallGran::FixWallGran(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 
 void FixWallGran::init() {
   LAMMPS_NS::FixWallGran::init();
+  heat_ = nullptr;
   if (kernel_suits())
-    kernel_->read(HostMaterial(force->registry, words_, "fix wall/gran"), atom->ntypes);
+    kernel_->read(HostMaterial(force->registry, words_, "fix wall/gran"),
+                  atom->get_properties()->max_type());
+}
+
+void FixWallGran::setup(int vflag) {
+  LAMMPS_NS::FixWallGran::setup(vflag);
+  if (modify->n_fixes_style("granflux/heat") > 0)
+    heattransfer_flag_ = false; // it is not LIGGGHTS' own law that conducts
 }
 
 /// False: contacts are evaluated by LIGGGHTS' own law.
@@ -159,6 +175,20 @@ const char* FixWallGran::reason_for_stock() const {
   if (!laws_are_separate(*impl))
     return "this contact model";
   return nullptr;
+}
+
+std::string FixWallGran::set_heat(HeatPort& heat, const ContactHeat& law) {
+  if (const char* reason = reason_for_stock())
+    return std::string("it is LIGGGHTS' own for ") + reason;
+  const bool shape_will_do =
+      law.needs_no_force() && law.options().friction == FrictionHeat::off && !law.options().damping;
+  if (!kernel_suits() && !shape_will_do)
+    return "its contact model has no form by particle subset, from which heat takes forces: use "
+           "conduction overlap, stock or off, friction off, damping off";
+  if (!kernel_suits() && !all_of_one_type())
+    return "its meshes are of several types and its contact model has no form by particle subset";
+  heat_ = &heat;
+  return {};
 }
 
 /// Laws ask the fix for its wall type: it cannot be that of several meshes at once.
@@ -195,11 +225,27 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
                 .groups = atom->mask,
                 .force = rows(atom->f),
                 .torque = rows(atom->torque)};
+  makes_heat_ = heat_ != nullptr;
   if (meshwall_ == 1) {
     for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
       begin_mesh(mesh);
+  } else if (makes_heat_) {
+    primitive_heat_ = heat_of_wall(nullptr);
   }
   return true;
+}
+
+/// Of this moment; of the primitive if there are no triangles.
+HeatOfWall FixWallGran::heat_of_wall(LAMMPS_NS::TriMesh* triangles) const {
+  HeatOfWall heat{.contacts = heat_->heat_of_contacts(), .temperature = {}};
+  if (!triangles) {
+    if (Temp_wall >= 0)
+      heat.temperature = Temp_wall;
+  } else if (auto* temperature =
+                 triangles->prop().getGlobalProperty<LAMMPS_NS::ScalarContainer<double>>("Temp")) {
+    heat.temperature = (*temperature)(0);
+  }
+  return heat;
 }
 
 void FixWallGran::own_work(int /*thread*/, Range block) {
@@ -217,7 +263,7 @@ void FixWallGran::touch_primitive(Range block) {
   double wall_velocity[3] = {0, 0, 0};
   if (shear_)
     wall_velocity[shearDim_] = vshear_;
-  Batch batch(*this, atom_type_wall_);
+  Batch batch(*this, atom_type_wall_, primitive_heat_);
   int* first = nullptr;
   const int count = primitiveWall_->getNeighbors(first);
   const std::span<const int> near(first, std::size_t(count)); // ascending
@@ -249,6 +295,8 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
     batch.add(touch, nullptr);
   else
     touch_by_host(touch, nullptr, 0, nullptr);
+  if (makes_heat_ && !by_kernel_)
+    primitive_heat_.add(particle, atom->type[particle], atom_type_wall_, radius, -gap, 0, {});
 }
 
 void FixWallGran::begin_mesh(int number) {
@@ -263,6 +311,8 @@ void FixWallGran::begin_mesh(int number) {
   mesh.history = fix.contactHistory();
   mesh.velocity = velocities ? velocities->begin() : nullptr;
   mesh.number = number;
+  if (makes_heat_)
+    mesh.heat = heat_of_wall(&triangles);
   if (mesh.history)
     mesh.history->markAllContacts();
   if (!mesh.pairs.current)
@@ -277,7 +327,7 @@ void FixWallGran::begin_mesh(int number) {
 }
 
 void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
-  Batch batch(*this, mesh.wall_type);
+  Batch batch(*this, mesh.wall_type, mesh.heat);
   const WallPairs& pairs = mesh.pairs;
   const auto first = std::lower_bound(pairs.particle.begin(), pairs.particle.end(), block.begin);
   for (auto row = std::size_t(first - pairs.particle.begin());
@@ -305,7 +355,7 @@ void FixWallGran::end_own_work() {
 
 /// Where meshes are of different types, and in the setup of a run: one after the other.
 void FixWallGran::post_force_mesh(int vflag) {
-  by_kernel_ = false;                   // in a setup histories stay as they are
+  by_kernel_ = makes_heat_ = false;     // in a setup histories stay as they are
   if (addflag_ || reason_for_stock()) { // addflag: asked by a compute, contact by contact
     LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
     return;
@@ -351,6 +401,8 @@ void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, Force
     batch.add(touch, on_mesh);
   else
     touch_by_host(touch, &mesh, triangle, on_mesh);
+  if (makes_heat_ && !by_kernel_)
+    mesh.heat.add(particle, atom->type[particle], mesh.wall_type, radius_[particle], -gap, 0, {});
 }
 
 void FixWallGran::touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 // LIGGGHTS' headers need this order.
@@ -13,6 +14,7 @@
 #include <liggghts/fix_wall_gran.h>
 
 #include "gran_words.hpp"
+#include "heat_port.hpp"
 #include "own_work.hpp"
 #include "particles.hpp"
 #include "wall_kernel.hpp"
@@ -29,11 +31,16 @@ public:
   FixWallGran(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
   void init() override;
+  void setup(int vflag) override;
   void pre_neighbor() override;
 
   bool begin_own_work(int eflag, int vflag) override;
   void own_work(int thread, Range block) override;
   void end_own_work() override;
+
+  /// From here on, until the next init(), contacts with this wall make heat too. Returns what
+  /// stands against that with this law, or an empty text.
+  [[nodiscard]] std::string set_heat(HeatPort& heat, const ContactHeat& law);
 
 protected:
   void post_force_mesh(int vflag) override;
@@ -50,6 +57,7 @@ private:
     LAMMPS_NS::FixContactHistoryMesh* history = nullptr;
     double*** velocity = nullptr; // of the three corners of each triangle, or null
     int number = 0, wall_type = 1;
+    HeatOfWall heat;
     WallPairs pairs;
     std::vector<ForceOnMesh> forces; // of each pair, where a module of the mesh sums them
   };
@@ -59,6 +67,7 @@ private:
 
   [[nodiscard]] bool kernel_suits() const;
   [[nodiscard]] bool all_of_one_type() const;
+  [[nodiscard]] HeatOfWall heat_of_wall(LAMMPS_NS::TriMesh* triangles) const;
   void touch_primitive(Range block);
   void touch_primitive(int particle, const double* wall_velocity, Batch& batch);
   void begin_mesh(int number);
@@ -70,6 +79,9 @@ private:
   GranWords words_;
   std::unique_ptr<WallKernel> kernel_; // null: there is none for these laws
   bool by_kernel_ = false;             // in this step
+  HeatPort* heat_ = nullptr;           // null: none
+  bool makes_heat_ = false;            // in this step
+  HeatOfWall primitive_heat_;          // of this step
   Particles particles_;
   std::vector<Mesh> meshes_;
 };

@@ -26,24 +26,35 @@ public:
         constants_.push_back(Law::constants(material, a, b));
   }
 
-  void add_lower(const Particles& particles, ThreadContacts& contacts, double dt) const override {
+  void add_lower(const Particles& particles, ThreadContacts& contacts, double dt,
+                 const HeatOfContacts* heat) const override {
     if (!contacts.lower.partner.empty())
-      with_forces(particles, contacts, dt, [](auto& forces) { forces.add_lower(); });
+      with_forces(particles, contacts, dt, heat, [](auto& forces) { forces.add_lower(); });
   }
 
-  void add_upper(const Particles& particles, ThreadContacts& contacts, Range block,
-                 double dt) const override {
-    with_forces(particles, contacts, dt, [&](auto& forces) { forces.add_upper(block); });
+  void add_upper(const Particles& particles, ThreadContacts& contacts, Range block, double dt,
+                 const HeatOfContacts* heat) const override {
+    with_forces(particles, contacts, dt, heat, [&](auto& forces) { forces.add_upper(block); });
   }
 
 private:
   void with_forces(const Particles& particles, ThreadContacts& contacts, double dt,
-                   auto&& work) const {
+                   const HeatOfContacts* heat, auto&& work) const {
+    if (heat)
+      with_heat<HeatBatch>(particles, contacts, dt, *heat, work);
+    else
+      with_heat<WithoutHeat>(particles, contacts, dt, {}, work);
+  }
+
+  template <class Heat>
+  void with_heat(const Particles& particles, ThreadContacts& contacts, double dt,
+                 const typename Heat::Source& heat, auto&& work) const {
+    const auto* constants = constants_.data();
     if (types_ == 1) {
-      ContactForces<Law, true> forces(particles, contacts, constants_.data(), types_, dt);
+      ContactForces<Law, true, Heat> forces(particles, contacts, constants, types_, dt, heat);
       work(forces);
     } else {
-      ContactForces<Law, false> forces(particles, contacts, constants_.data(), types_, dt);
+      ContactForces<Law, false, Heat> forces(particles, contacts, constants, types_, dt, heat);
       work(forces);
     }
   }

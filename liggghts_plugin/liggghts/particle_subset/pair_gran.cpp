@@ -3,10 +3,12 @@
 
 #include "pair_gran.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -18,6 +20,7 @@
 #include <liggghts/force.h>
 #include <liggghts/modify.h>
 #include <liggghts/neighbor.h>
+#include <liggghts/properties.h>
 #include <liggghts/update.h>
 
 #include "fix_contact_history.hpp"
@@ -102,6 +105,7 @@ void PairGran::init_style() {
   if (by_subset != by_subset_ && computeflag_ && fix_history)
     fix_history->setup_pre_exchange();
   by_subset_ = by_subset;
+  heat_ = nullptr;
   needs_neighlist = !by_subset;
   PairGranProxy::init_style();
   if (by_subset) {
@@ -122,7 +126,8 @@ void PairGran::init_style() {
 void PairGran::init_granular() {
   PairGranProxy::init_granular();
   if (by_subset_)
-    kernel_->read(HostMaterial(force->registry, words_, "pair_style gran"), atom->ntypes);
+    kernel_->read(HostMaterial(force->registry, words_, "pair_style gran"),
+                  atom->get_properties()->max_type());
 }
 
 Particles PairGran::particles() const {
@@ -156,15 +161,34 @@ bool PairGran::begin_own_work(int eflag, int vflag) {
   build_lists_if_old();
   computeflag_ = 1;
   evflag = vflag_fdotr = 0;
+  if (heat_)
+    heat_now_ = heat_->heat_of_contacts();
   return true;
 }
 
-void PairGran::start_own_work(int thread, Range /*own*/) {
-  kernel_->add_lower(particles(), lists_.of(thread), update->dt);
+void PairGran::start_own_work(int thread, Range own) {
+  if (heat_)
+    std::fill(heat_now_.arrays.rates + own.begin, heat_now_.arrays.rates + own.end, HeatRates{});
+  kernel_->add_lower(particles(), lists_.of(thread), update->dt, heat());
 }
 
 void PairGran::own_work(int thread, Range block) {
-  kernel_->add_upper(particles(), lists_.of(thread), block, update->dt);
+  kernel_->add_upper(particles(), lists_.of(thread), block, update->dt, heat());
+}
+
+/// In a step whose forces are left to LIGGGHTS' loop: forces and histories go nowhere.
+void PairGran::add_heat_alone() {
+  heat_now_ = heat_->heat_of_contacts();
+  Particles all = particles();
+  std::vector<Vec3> forces(std::size_t(all.owned)), torques(forces.size());
+  all.force = forces.data();
+  all.torque = torques.data();
+  std::fill_n(heat_now_.arrays.rates, all.owned, HeatRates{});
+#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
+  for (int thread = 0; thread < lists_.subset().threads(); ++thread) {
+    ThreadContacts contacts = lists_.of(thread);
+    kernel_->add(all, contacts, update->dt, heat());
+  }
 }
 
 void PairGran::build_lists_if_old() {
@@ -223,6 +247,8 @@ void PairGran::compute_force(int eflag, int vflag, int addflag) {
     return;
   }
   if (!only_forces_wanted(eflag, vflag, addflag)) {
+    if (heat_ && computeflag() && shearupdate() && !addflag)
+      add_heat_alone();
     PairGranProxy::compute_force(eflag, vflag, addflag); // along the lists that are shown to it
     if (computeflag() && shearupdate())
       lists_.mirror_history();
@@ -230,9 +256,14 @@ void PairGran::compute_force(int eflag, int vflag, int addflag) {
   }
   evflag = vflag_fdotr = 0;
   const Particles all = particles();
+  const bool makes_heat = heat_ && shearupdate(); // not in a setup
+  if (makes_heat) {
+    heat_now_ = heat_->heat_of_contacts();
+    std::fill_n(heat_now_.arrays.rates, all.owned, HeatRates{});
+  }
 #pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
   for (int thread = 0; thread < lists_.subset().threads(); ++thread)
-    kernel_->add(all, lists_.of(thread), update->dt);
+    kernel_->add(all, lists_.of(thread), update->dt, makes_heat ? heat() : nullptr);
 }
 
 void PairGran::store_history(PartnerHistory kept) {

@@ -13,6 +13,7 @@
 #include "contact_kernel.hpp"
 #include "contact_lists.hpp"
 #include "gran_words.hpp"
+#include "heat_port.hpp"
 #include "own_work.hpp"
 
 namespace granflux::particle_subset {
@@ -41,7 +42,12 @@ public:
   [[nodiscard]] bool holds_history() const { return by_subset_; }
   void store_history(PartnerHistory kept);
 
+  /// From here on, until the next init_style(), contacts make heat too. Only by particle subset.
+  void set_heat(HeatPort& heat) { heat_ = &heat; }
+
 private:
+  void add_heat_alone();
+  [[nodiscard]] const HeatOfContacts* heat() const { return heat_ ? &heat_now_ : nullptr; }
   [[nodiscard]] std::string reason_for_stock();
   void build_lists_if_old();
   void build_lists();
@@ -53,6 +59,8 @@ private:
   std::unique_ptr<ContactKernel> kernel_;
   std::string unknown_law_; // why there is no kernel
   bool by_subset_ = false;
+  HeatPort* heat_ = nullptr; // null: none
+  HeatOfContacts heat_now_;  // of this step
   ContactLists lists_;
   // The same lists in the form in which LIGGGHTS' loop, fixes and computes read them.
   std::unique_ptr<LAMMPS_NS::NeighList> shown_, shown_history_;

@@ -61,7 +61,8 @@ bool look_at_no_forces(const LAMMPS_NS::Modify& modify) {
     const LAMMPS_NS::Fix& fix = *modify.fix[i];
     const std::string_view style = fix.style;
     if ((modify.fmask[i] & PRE_FORCE) && !moves_meshes_only(fix) && style != "wall/gran" &&
-        style != "neighlist/mesh" && !style.starts_with("contacthistory"))
+        style != "neighlist/mesh" && style != "granflux/heat" &&
+        !style.starts_with("contacthistory"))
       return false;
   }
   return true;

@@ -30,6 +30,20 @@ public:
 
   void add(const Particles& p, std::span<WallTouch> touches, int wall_type,
            double dt) const override {
+    touch_all(p, touches, wall_type, dt, [](const WallTouch&, const typename Law::Force&) {});
+  }
+  void add_with_heat(const Particles& p, std::span<WallTouch> touches, int wall_type, double dt,
+                     const HeatOfWall& heat) const override {
+    touch_all(p, touches, wall_type, dt, [&](const WallTouch& touch, const typename Law::Force& f) {
+      const int i = touch.particle;
+      heat.add(i, p.type[i], wall_type, p.radius[i], -touch.gap, f.pressing, f.heat);
+    });
+  }
+
+private:
+  template <class Seen>
+  void touch_all(const Particles& p, std::span<WallTouch> touches, int wall_type, double dt,
+                 Seen&& seen) const {
     for (WallTouch& touch : touches) {
       const int i = touch.particle;
       const TouchedWall wall{.separation = touch.separation,
@@ -47,10 +61,10 @@ public:
       p.force[i] += f.force;
       p.torque[i] += f.torque;
       touch.force = f.force;
+      seen(touch, f);
     }
   }
 
-private:
   template <bool has> static Vec3 history_at(const double* h) {
     if constexpr (has)
       return {h[0], h[1], h[2]};

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "contact_heat.hpp"
 #include "contact_kernel.hpp"
 #include "material.hpp"
 #include "particles.hpp"
@@ -33,6 +34,9 @@ public:
   /// Adds forces and torques to the particles, in the order of `touches`.
   virtual void add(const Particles& particles, std::span<WallTouch> touches, int wall_type,
                    double dt) const = 0;
+  /// The same, and the heat exchanged with this wall.
+  virtual void add_with_heat(const Particles& particles, std::span<WallTouch> touches,
+                             int wall_type, double dt, const HeatOfWall& heat) const = 0;
 };
 
 /// Null where one of the names is of no law here.

@@ -36,6 +36,8 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
 
   struct Force {
     Vec3 force, torque; ///< on the particle
+    double pressing;    ///< normal force without cohesion [N]
+    Dissipation heat;
   };
 
   /// The histories are brought to the end of the step of `dt` seconds.
@@ -55,15 +57,20 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
     c.slip = w.velocity - c.normal_speed * c.normal - cross(c.relative_spin, w.separation);
 
     NormalForce normal = Normal::force(k.normal, c);
-    Force f{.force = normal.force * c.normal, .torque = {}};
+    Force f{.force = normal.force * c.normal, .torque = {}, .pressing = normal.force, .heat = {}};
+    f.heat.damping = damping_power(c, normal, dt);
     if constexpr (Cohesion::acts) {
       const double pull = Cohesion::force_of_wall(k.cohesion, c);
       f.force += pull * c.normal;
       normal.force += k.cohesion.in_friction * pull;
     }
     if constexpr (Tangential::acts) {
-      const Vec3 tangential = Tangential::force(k.tangential, c, normal, dt, tangential_history);
+      const auto [tangential, heat] =
+          Tangential::force(k.tangential, c, normal, dt, tangential_history);
       f.force += tangential;
+      f.heat.sliding = heat.sliding;
+      f.heat.sliding_by_speed = heat.sliding_by_speed;
+      f.heat.damping += heat.damping;
       f.torque = -arm * cross(c.normal, tangential);
     }
     if constexpr (Rolling::acts)

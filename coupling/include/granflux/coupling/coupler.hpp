@@ -19,6 +19,8 @@ enum class MomentumModel { a, b };
 struct CouplingOptions {
   std::string drag = "gidaspow";           ///< a name of DragLaws
   std::string void_fraction = "trilinear"; ///< a name of the void-fraction kernels
+  std::string nusselt = "gunn";            ///< a name of NusseltLaws
+  double heat_transfer_coefficient = 0;    ///< W/(m2 K); above 0 it takes the law's place
   double smoothing_width = 3;              ///< of the smoothed kernel, in particle diameters
   MomentumModel model = MomentumModel::a;
   /// A cell below this void fraction stops the run; nothing is clamped.
@@ -51,6 +53,17 @@ struct ExchangeReport {
   /// 1.5 gas in a packed bed is not stable (docs/theory_coupling.md, section 7).
   double stiffness_max = 0;
   long law_out_of_range = 0; ///< particles outside the drag law's range of validity
+  // Heat, where the gas has an energy equation.
+  /// Heat that the particles took from the gas, mean over the interval, what the last interval was
+  /// charged too little or too much included [W].
+  double heat_rate = 0;
+  /// Heat ledger since the start [J]: from_gas = to_particles + in_transit + carried_out +
+  /// remainder.
+  double heat_from_gas = 0, heat_to_particles = 0, heat_in_transit = 0, heat_carried_out = 0;
+  double heat_residual = 0; ///< |remainder| / sum of |heats| exchanged
+  /// Largest h A T/(m c) of a particle: coupling interval over the time its temperature takes.
+  double heat_stiffness_max = 0;
+  long nusselt_out_of_range = 0; ///< particles outside the Nusselt law's range of validity
 };
 
 /// Seconds spent, this rank.
@@ -81,6 +94,9 @@ public:
   /// `share` of the impulse force * dt is booked as received (1; 1/2 for a kick that the
   /// integrator halves).
   void apply(const ParticleView& particles, double dt, double share = 1);
+  /// Heat that particles of this rank received by convected_heat() since the last call [J].
+  void received_heat(double heat);
+
   /// Takes back the part of the last force's impulse that the integrator never applied.
   void unapply(const ParticleView& particles, double dt, double share);
 

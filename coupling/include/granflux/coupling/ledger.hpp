@@ -22,6 +22,11 @@ struct ExchangeSums {
   CompensatedSum exchanged;       ///< sum of |booked| + |handed over| [N s]
   double slip_reynolds_max = 0, stiffness_max = 0;
   double void_fraction_min = 1;
+  // The same of heat.
+  double nusselt_out_of_range = 0, heat_stiffness_max = 0;
+  CompensatedSum heat_booked;      ///< taken from the gas for the coming interval [J]
+  CompensatedSum heat_handed_over; ///< received less booked of the last interval [J]
+  CompensatedSum heat_exchanged;   ///< sum of |booked| + |handed over| [J]
 
   ExchangeSums& operator+=(const ExchangeSums& o) &;
 };
@@ -38,6 +43,8 @@ public:
 
   /// Impulse that apply() gave to particles of this rank [N s]; negative when taken back.
   void received(const Vec3& impulse) { applied_ += impulse; }
+  /// Heat that particles of this rank took [J].
+  void received_heat(double heat) { heat_applied_ += heat; }
 
   /// Closes the books of one exchange: one reduction over all ranks, then fills the sums of
   /// `report`. `gas` is the balance of the gas step over `interval` [s]. Collective.
@@ -48,6 +55,10 @@ public:
   void load(const std::vector<double>& state);
 
 private:
+  struct Books;
+  static void add_books(void* in, void* inout, int* count, MPI_Datatype* type);
+  void close_heat(const Books& all, double interval, ExchangeReport& report) const;
+
   MPI_Comm comm_;
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
   MPI_Op op_ = MPI_OP_NULL;
@@ -55,6 +66,8 @@ private:
   CompensatedVec3 applied_, booked_, handed_over_;
   CompensatedSum exchanged_;
   CompensatedVec3 from_gas_; ///< by the gas's own balance; the same on all ranks [N s]
+  // And of heat [J].
+  CompensatedSum heat_applied_, heat_booked_, heat_handed_over_, heat_exchanged_, heat_from_gas_;
 };
 
 } // namespace granflux::coupling

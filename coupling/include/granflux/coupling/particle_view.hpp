@@ -6,6 +6,7 @@
 #include <span>
 
 #include <granflux/cfd/vec3.hpp>
+#include <granflux/coupling/heat_state.hpp>
 
 namespace granflux::coupling {
 
@@ -39,6 +40,13 @@ struct ParticleView {
   std::span<const std::uint8_t> coupled;
   /// 1: held in place whatever the force (frozen). Empty: all free.
   std::span<const std::uint8_t> fixed;
+
+  // Where particles have temperatures; else all empty.
+  std::span<const double> temperature;   ///< K
+  std::span<const double> heat_capacity; ///< of the whole particle [J/K]
+  std::span<HeatState> heat;
+  /// 1: its temperature stays, whatever the heat. Empty: all free.
+  std::span<const std::uint8_t> fixed_temperature;
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };

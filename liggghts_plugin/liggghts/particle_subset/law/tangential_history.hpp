@@ -26,8 +26,9 @@ struct TangentialHistory {
   }
 
   /// On i. `elongation` [m] is brought to the end of the step of `dt` seconds.
-  static Vec3 force(const Constants& k, const Contact& c, const NormalForce& normal, double dt,
-                    Vec3& elongation) {
+  static TangentialForce force(const Constants& k, const Contact& c, const NormalForce& normal,
+                               double dt, Vec3& elongation) {
+    const Vec3 before = elongation;
     Vec3 spring = elongation + dt * c.slip;
     spring -= dot(spring, c.normal) * c.normal;
     const double elastic = normal.tangential_stiffness * norm(spring);
@@ -36,7 +37,13 @@ struct TangentialHistory {
     const double held = slides ? limit / elastic : 1.0;
     const double damping = slides ? 0.0 : normal.tangential_damping;
     elongation = held * spring;
-    return -normal.tangential_stiffness * elongation - damping * c.slip;
+    TangentialForce on_i{-normal.tangential_stiffness * elongation - damping * c.slip, {}};
+    // The slider gives way by what the spring is shortened, against the mean force of the step.
+    on_i.heat.sliding =
+        0.5 * normal.tangential_stiffness / dt * dot(before + elongation, (1 - held) * spring);
+    on_i.heat.sliding_by_speed = slides ? limit * norm(c.slip) : 0.0;
+    on_i.heat.damping = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
+    return on_i;
   }
 };
 

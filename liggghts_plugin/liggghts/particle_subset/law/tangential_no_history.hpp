@@ -23,12 +23,18 @@ struct TangentialNoHistory {
     return {m.pair("coeffFrict", a, b)};
   }
 
-  static Vec3 force(const Constants& k, const Contact& c, const NormalForce& normal, double,
-                    Vec3&) {
+  static TangentialForce force(const Constants& k, const Contact& c, const NormalForce& normal,
+                               double dt, Vec3&) {
     const double speed = norm(c.slip);
     const double limit = k.friction * std::abs(normal.force);
     const bool slides = limit < normal.tangential_damping * speed;
-    return -(slides ? limit / speed : normal.tangential_damping) * c.slip;
+    const double damping = slides ? limit / speed : normal.tangential_damping;
+    TangentialForce on_i{-damping * c.slip, {}};
+    const double power = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
+    on_i.heat.sliding = slides ? power : 0.0;
+    on_i.heat.sliding_by_speed = slides ? limit * speed : 0.0;
+    on_i.heat.damping = slides ? 0.0 : power;
+    return on_i;
   }
 };
 

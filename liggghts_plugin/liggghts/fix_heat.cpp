@@ -1,0 +1,446 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "fix_heat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <mpi.h>
+#include <omp.h>
+
+#include <liggghts/lammps.h>
+
+#include <liggghts/atom.h>
+#include <liggghts/comm.h>
+#include <liggghts/error.h>
+#include <liggghts/fix_property_atom.h>
+#include <liggghts/force.h>
+#include <liggghts/group.h>
+#include <liggghts/modify.h>
+#include <liggghts/neigh_list.h>
+#include <liggghts/output.h>
+#include <liggghts/pair_gran.h>
+#include <liggghts/update.h>
+
+#include <granflux/cfd/error.hpp>
+#include <granflux/coupling/contact_heat/conductance.hpp>
+
+#include "particle_subset/fix_wall_gran.hpp"
+#include "particle_subset/pair_gran.hpp"
+#include "particle_subset/team.hpp"
+#include "particle_subset/verlet.hpp"
+
+namespace granflux::liggghts {
+
+using particle_subset::HeatPowers;
+using particle_subset::HeatRates;
+using particle_subset::WallHeatRates;
+
+namespace {
+
+constexpr int vector_length = 22;  // 5 of the particles, 8 powers, 8 energies, the rest
+constexpr double biot_limit = 0.1; // above it a particle is not of one temperature
+
+template <class Row> Row* rows(const LAMMPS_NS::FixPropertyAtom& property) {
+  return property.array_atom ? reinterpret_cast<Row*>(property.array_atom[0]) : nullptr;
+}
+
+constexpr int doubles(std::size_t bytes) {
+  return int(bytes / sizeof(double));
+}
+
+} // namespace
+
+template <class Work> void FixHeat::guard(Work&& work) {
+  const auto text = [this](const std::exception& e) {
+    return fmt::format("fix {} granflux/heat: {}", id, e.what());
+  };
+  try {
+    work();
+  } catch (const ConfigError& e) {
+    error->all(FLERR, text(e).c_str()); // thrown on all ranks alike
+  } catch (const std::exception& e) {
+    error->one(FLERR, text(e).c_str());
+  }
+}
+
+FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
+  scalar_flag = vector_flag = 1;
+  size_vector = vector_length;
+  global_freq = 1;
+  extscalar = 1;
+  extvector = 0;
+  guard([&] {
+    for (int i = 0; i < modify->nfix; ++i)
+      if (const Fix* other = modify->fix[i]; other && std::string_view(other->style) == style)
+        throw ConfigError(fmt::format("fix {} is one already", other->id));
+    if (igroup != 0)
+      throw ConfigError(fmt::format("group {}: must be all; fixed_temperature names groups whose "
+                                    "temperatures stay",
+                                    group->names[igroup]));
+    options_ = read_heat_options({arg + 3, std::size_t(narg - 3)});
+    for (const std::string& name : options_.fixed_groups)
+      if (group->find(name.c_str()) < 0)
+        throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
+  });
+}
+
+int FixHeat::setmask() {
+  return LAMMPS_NS::FixConst::PRE_FORCE | LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
+}
+
+/// A fix property/atom of that name, made here unless there is one.
+LAMMPS_NS::FixPropertyAtom* FixHeat::property(const char* name, int values, bool restarts,
+                                              bool ghosts, double initial) {
+  const char* shape = values == 1 ? "scalar" : "vector";
+  if (Fix* found = modify->find_fix_property(name, "property/atom", shape, values, 0, style, false))
+    return static_cast<LAMMPS_NS::FixPropertyAtom*>(found);
+  own_properties_.emplace_back(name);
+  std::vector<std::string> words{
+      name, "all", "property/atom", name, shape, restarts ? "yes" : "no", ghosts ? "yes" : "no",
+      "no"};
+  words.resize(words.size() + std::size_t(values), fmt::format("{}", initial));
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  return modify->add_fix_property_atom(int(arguments.size()), arguments.data(), style);
+}
+
+void FixHeat::post_create() {
+  temperature_ = property("Temp", 1, true, true, options_.initial_temperature);
+  carry_ = property("granflux_temperature_carry", 1, true, false, 0);
+  heat_flux_ = property("heatFlux", 1, false, false, 0);
+  source_ = property("heatSource", 1, true, false, 0);
+  contacts_ = property("heatContact", doubles(sizeof(HeatRates)), false, false, 0);
+  walls_ = property("heatWall", doubles(sizeof(WallHeatRates)), false, false, 0);
+}
+
+void FixHeat::pre_delete(bool unfix) {
+  if (unfix)
+    for (const std::string& name : own_properties_)
+      modify->delete_fix(name.c_str(), true);
+}
+
+void FixHeat::say(const std::string& text) const {
+  if (comm->me != 0)
+    return;
+  for (FILE* out : {screen, logfile})
+    if (out)
+      std::fputs(text.c_str(), out);
+}
+
+void FixHeat::check_script() const {
+  if (!atom->radius_flag || !atom->rmass_flag)
+    throw ConfigError(fmt::format("atom_style {}: particles must have a radius and a mass "
+                                  "(atom_style granular or sphere)",
+                                  atom->atom_style));
+  for (int i = 0; i < modify->nfix; ++i) {
+    const std::string_view other = modify->fix[i]->style;
+    if (other.starts_with("heat/gran") || other == "transportequation/scalar")
+      throw ConfigError(fmt::format("fix {} (style {}) changes the same temperatures: use one of "
+                                    "the two",
+                                    modify->fix[i]->id, other));
+  }
+}
+
+int FixHeat::held_bits() const {
+  int bits = 0;
+  for (const std::string& name : options_.fixed_groups)
+    bits |= group->bitmask[group->find(name.c_str())];
+  return bits;
+}
+
+void FixHeat::init() {
+  guard([&] {
+    check_script();
+    materials_ = read_heat_materials(*lmp, options_.contacts);
+    law_ = particle_subset::ContactHeat(options_.contacts, materials_.materials,
+                                        materials_.overlap_ratio);
+    held_ = held_bits();
+    steps_by_gas_ = false;
+    auto* subsets = dynamic_cast<particle_subset::PairGran*>(force->pair);
+    fused_ = subsets && subsets->holds_history();
+    pair_ = nullptr;
+    if (fused_) {
+      subsets->set_heat(*this);
+      return;
+    }
+    pair_ = dynamic_cast<LAMMPS_NS::PairGran*>(force->pair_match("gran", 0));
+    if (!pair_)
+      throw ConfigError("needs pair_style gran");
+    const auto& wanted = options_.contacts;
+    if (!law_.needs_no_force() || wanted.friction != particle_subset::FrictionHeat::off ||
+        wanted.damping)
+      throw ConfigError("contact forces are LIGGGHTS' own, which does not hand them on one by one: "
+                        "use conduction overlap, stock or off, friction off, damping off");
+    if (force->newton_pair)
+      throw ConfigError("newton on: must be off");
+  });
+}
+
+void FixHeat::setup(int) {
+  guard([&] {
+    link_walls();
+    if (!begun_)
+      heat_at_start_ = [&] {
+        double heat = heat_of_rank();
+        MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
+        return heat;
+      }();
+    if (!begun_) {
+      const auto radius = options_.contacts.radius;
+      say(fmt::format(
+          "granflux: heat of contacts {}; conduction {}, friction {}, damping {}\n",
+          fused_ ? "by particle subset" : "beside LIGGGHTS' own forces",
+          radius ? std::visit([](const auto& r) { return std::string(r.name); }, *radius) : "off",
+          options_.contacts.friction == particle_subset::FrictionHeat::off      ? "off"
+          : options_.contacts.friction == particle_subset::FrictionHeat::slider ? "slider"
+                                                                                : "speed",
+          options_.contacts.damping ? "on" : "off"));
+    }
+    begun_ = true;
+  });
+}
+
+void FixHeat::link_walls() {
+  for (int i = 0; i < modify->nfix; ++i) {
+    Fix& fix = *modify->fix[i];
+    if (auto* wall = dynamic_cast<particle_subset::FixWallGran*>(&fix)) {
+      if (!dynamic_cast<particle_subset::Verlet*>(update->integrate))
+        throw ConfigError(fmt::format("fix {} wall/gran: heat of walls needs a box that is "
+                                      "orthogonal and spheres without bonds",
+                                      fix.id));
+      if (const std::string obstacle = wall->set_heat(*this, law_); !obstacle.empty())
+        throw ConfigError(fmt::format("fix {} wall/gran: {}", fix.id, obstacle));
+    } else if (auto* stock = dynamic_cast<LAMMPS_NS::FixWallGran*>(&fix)) {
+      if (stock->heattransfer_flag() ||
+          options_.contacts.friction != particle_subset::FrictionHeat::off)
+        throw ConfigError(fmt::format("fix {} wall/gran is LIGGGHTS' own (-subset off): heat of "
+                                      "walls is by particle subset only",
+                                      fix.id));
+    }
+  }
+}
+
+particle_subset::HeatOfContacts FixHeat::heat_of_contacts() {
+  return {.law = &law_,
+          .arrays = {.temperature = temperature_->vector_atom,
+                     .rates = rows<HeatRates>(*contacts_),
+                     .walls = rows<WallHeatRates>(*walls_)}};
+}
+
+/// Ghosts take the temperature of their particles; rates of walls start from zero.
+void FixHeat::pre_force(int) {
+  temperature_->do_forward_comm();
+  if (auto* walls = rows<WallHeatRates>(*walls_))
+    std::fill_n(walls, atom->nlocal, WallHeatRates{});
+  if (pair_)
+    conduct_by_shape();
+}
+
+/// Along LIGGGHTS' own list, from distances alone.
+void FixHeat::conduct_by_shape() {
+  const particle_subset::HeatOfContacts heat = heat_of_contacts();
+  const LAMMPS_NS::NeighList& list = *pair_->list;
+  std::fill_n(heat.arrays.rates, atom->nlocal, HeatRates{});
+  for (int row = 0; row < list.inum; ++row) {
+    const int i = list.ilist[row];
+    for (int entry = 0; entry < list.numneigh[i]; ++entry) {
+      const int j = list.firstneigh[i][entry] & NEIGHMASK;
+      const double* xi = atom->x[i];
+      const double* xj = atom->x[j];
+      const double distance = std::hypot(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]);
+      const double overlap = atom->radius[i] + atom->radius[j] - distance;
+      if (overlap <= 0)
+        continue;
+      const double conductance = law_.conductance(law_.pair(atom->type[i], atom->type[j]),
+                                                  atom->radius[i], atom->radius[j], overlap, 0);
+      const double heat_to_i =
+          conductance * (heat.arrays.temperature[j] - heat.arrays.temperature[i]);
+      heat.arrays.rates[i].conduction += heat_to_i;
+      heat.arrays.rates[i].conductance += conductance;
+      if (j < atom->nlocal) {
+        heat.arrays.rates[j].conduction -= heat_to_i;
+        heat.arrays.rates[j].conductance += conductance;
+      }
+    }
+  }
+}
+
+void FixHeat::pre_final_integrate() {
+  if (!steps_by_gas_)
+    step(nullptr);
+}
+
+double FixHeat::step_with_gas(coupling::HeatState* states) {
+  step(states);
+  return update->dt * powers_.convection;
+}
+
+void FixHeat::show_to_gas(coupling::ParticleView& view) {
+  const auto n = std::size_t(atom->nlocal);
+  heat_capacity_.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+    heat_capacity_[i] = atom->rmass[i] * materials_.capacity[std::size_t(atom->type[i]) - 1];
+  view.temperature = {temperature_->vector_atom, n};
+  view.heat_capacity = heat_capacity_;
+  if (!held_)
+    return;
+  is_held_.resize(n);
+  std::transform(atom->mask, atom->mask + n, is_held_.begin(),
+                 [&](int groups) { return std::uint8_t((groups & held_) != 0); });
+  view.fixed_temperature = is_held_;
+}
+
+void FixHeat::step(coupling::HeatState* gas) {
+  const particle_subset::HeatedParticles particles{.temperature = temperature_->vector_atom,
+                                                   .carry = carry_->vector_atom,
+                                                   .heat_flux = heat_flux_->vector_atom,
+                                                   .source = source_->vector_atom,
+                                                   .mass = atom->rmass,
+                                                   .type = atom->type,
+                                                   .groups = atom->mask,
+                                                   .contacts = rows<HeatRates>(*contacts_),
+                                                   .walls = rows<WallHeatRates>(*walls_),
+                                                   .gas = gas};
+  std::vector<HeatPowers> parts(static_cast<std::size_t>(omp_get_max_threads()));
+  particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
+    parts[std::size_t(omp_get_thread_num())] =
+        particle_subset::step_temperature(particles, materials_.capacity, held_, update->dt, range);
+  });
+  powers_ = {};
+  for (const HeatPowers& part : parts)
+    powers_ += part;
+  const double dt = update->dt;
+  energies_.conduction += dt * powers_.conduction;
+  energies_.walls += dt * powers_.walls;
+  energies_.friction += dt * powers_.friction;
+  energies_.damping += dt * powers_.damping;
+  energies_.convection += dt * powers_.convection;
+  energies_.source += dt * powers_.source;
+  energies_.to_walls += dt * powers_.to_walls;
+  energies_.held += dt * powers_.held;
+  if (powers_.conduction_number > 1)
+    error->one(FLERR, fmt::format("fix {} granflux/heat: the time step of {} s is {:.3g} times the "
+                                  "time in which a particle's contacts would take it to the "
+                                  "temperature of its neighbours: use a smaller one",
+                                  id, dt, powers_.conduction_number)
+                          .c_str());
+}
+
+double FixHeat::heat_of_rank() const {
+  coupling::CompensatedSum heat;
+  for (int i = 0; i < atom->nlocal; ++i)
+    heat += atom->rmass[i] * materials_.capacity[std::size_t(atom->type[i]) - 1] *
+            (temperature_->vector_atom[i] + carry_->vector_atom[i]);
+  return heat.value();
+}
+
+/// Once a step, by all ranks.
+void FixHeat::look_at_temperatures() {
+  if (looked_at_ == update->ntimestep)
+    return;
+  looked_at_ = update->ntimestep;
+  const bool conducts = options_.contacts.radius.has_value();
+  Temperatures mine{.low = std::numeric_limits<double>::infinity(),
+                    .high = -std::numeric_limits<double>::infinity()};
+  const auto* rates = rows<HeatRates>(*contacts_);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const auto type = std::size_t(atom->type[i]) - 1;
+    const double temperature = temperature_->vector_atom[i];
+    mine.capacity += atom->rmass[i] * materials_.capacity[type];
+    mine.low = std::min(mine.low, temperature);
+    mine.high = std::max(mine.high, temperature);
+    if (conducts) {
+      const double biot = coupling::biot_number(
+          rates[i].conductance, materials_.materials[type].conductivity, atom->radius[i]);
+      mine.biot_sum += biot;
+      mine.biot_max = std::max(mine.biot_max, biot);
+    }
+  }
+  mine.heat = heat_of_rank();
+  mine.particles = atom->nlocal;
+  const Energies& e = energies_;
+  reduced_ = {powers_.conduction,   powers_.walls,    powers_.friction,   powers_.damping,
+              powers_.convection,   powers_.source,   powers_.to_walls,   powers_.held,
+              e.conduction.value(), e.walls.value(),  e.friction.value(), e.damping.value(),
+              e.convection.value(), e.source.value(), e.to_walls.value(), e.held.value()};
+  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), int(reduced_.size()), MPI_DOUBLE, MPI_SUM, world);
+  double sums[] = {mine.heat, mine.capacity, mine.biot_sum, mine.particles};
+  double extremes[] = {mine.high, -mine.low, mine.biot_max};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world);
+  // Received by particles, less what those of fixed temperature passed on.
+  double received = -reduced_[15];
+  for (std::size_t n = 8; n < 14; ++n)
+    received += reduced_[n];
+  temperatures_ = {.heat = sums[0],
+                   .capacity = sums[1],
+                   .low = -extremes[1],
+                   .high = extremes[0],
+                   .biot_sum = sums[2],
+                   .biot_max = extremes[2],
+                   .particles = sums[3],
+                   .carried = sums[0] - heat_at_start_ - received};
+  warn_of_biot_number();
+}
+
+void FixHeat::warn_of_biot_number() {
+  if (temperatures_.biot_max <= biot_limit || warned_of_biot_)
+    return;
+  warned_of_biot_ = true;
+  say(fmt::format(
+      "granflux: WARNING: the largest Biot number of a particle is {:.3g}: above {} its "
+      "inside is not of one temperature, as is assumed\n",
+      temperatures_.biot_max, biot_limit));
+}
+
+void FixHeat::post_run() {
+  if (update->ntimestep == update->firststep)
+    return;
+  looked_at_ = -1;
+  look_at_temperatures();
+  const Temperatures& t = temperatures_;
+  if (options_.contacts.radius && t.particles > 0)
+    say(fmt::format("granflux: Biot number of the particles at the end of the run: mean {:.3g}, "
+                    "largest {:.3g}\n",
+                    t.biot_sum / t.particles, t.biot_max));
+}
+
+double FixHeat::compute_scalar() {
+  if (materials_.capacity.empty())
+    return 0; // before the first run
+  look_at_temperatures();
+  return temperatures_.heat;
+}
+
+double FixHeat::compute_vector(int n) {
+  if (materials_.capacity.empty())
+    return 0; // before the first run
+  look_at_temperatures();
+  const Temperatures& t = temperatures_;
+  const bool any = t.particles > 0;
+  switch (n) {
+  case 0:
+    return any ? t.heat / t.capacity : 0;
+  case 1:
+    return any ? t.low : 0;
+  case 2:
+    return any ? t.high : 0;
+  case 3:
+    return any ? t.biot_sum / t.particles : 0;
+  case 4:
+    return t.biot_max;
+  case vector_length - 1:
+    return t.carried;
+  default:
+    return reduced_[std::size_t(n - 5)];
+  }
+}
+
+} // namespace granflux::liggghts

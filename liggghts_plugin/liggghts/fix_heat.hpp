@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <liggghts/fix.h>
+
+#include <granflux/coupling/compensated_sum.hpp>
+#include <granflux/coupling/particle_view.hpp>
+
+#include "heat_materials.hpp"
+#include "heat_options.hpp"
+#include "particle_subset/heat_port.hpp"
+#include "particle_subset/temperature_step.hpp"
+
+namespace LAMMPS_NS {
+class FixPropertyAtom;
+class PairGran;
+} // namespace LAMMPS_NS
+
+namespace granflux::liggghts {
+
+/// fix ID all granflux/heat initial_temperature T ...: a temperature for every particle, conduction
+/// through contacts and the heat of friction (docs/reference/fix_granflux_heat.md).
+class FixHeat : public LAMMPS_NS::Fix, public particle_subset::HeatPort {
+public:
+  FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+
+  int setmask() override;
+  void post_create() override;
+  void pre_delete(bool unfix) override;
+  void init() override;
+  void setup(int) override;
+  void pre_force(int) override;
+  void pre_final_integrate() override;
+  void post_run() override;
+  /// Heat of all particles, sum of m c T [J].
+  double compute_scalar() override;
+  double compute_vector(int n) override;
+
+  [[nodiscard]] particle_subset::HeatOfContacts heat_of_contacts() override;
+
+  /// In each run between init() and the first step: the gas brings about the steps of temperature
+  /// itself, by step_with_gas().
+  void leave_steps_to_gas() { steps_by_gas_ = true; }
+  /// The step of this time step; returns the heat that this rank's particles took from the gas [J].
+  /// `states`: of the owned particles.
+  double step_with_gas(coupling::HeatState* states);
+  /// Temperatures and heat capacities of the owned particles, and which stay as they are.
+  void show_to_gas(coupling::ParticleView& view);
+
+private:
+  /// Heat received since the fix was made [J], of this rank.
+  struct Energies {
+    coupling::CompensatedSum conduction, walls, friction, damping, convection, source, to_walls,
+        held;
+  };
+  /// Over all particles of all ranks.
+  struct Temperatures {
+    double heat = 0;     ///< sum m c T [J]
+    double capacity = 0; ///< sum m c [J/K]
+    double low = 0, high = 0;
+    double biot_sum = 0, biot_max = 0, particles = 0;
+    double carried = 0; ///< heat that is not accounted for by what was received [J]
+  };
+
+  template <class Work> void guard(Work&& work);
+  LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool ghosts,
+                                       double initial);
+  void check_script() const;
+  void link_walls();
+  void conduct_by_shape();
+  void step(coupling::HeatState* gas);
+  void look_at_temperatures();
+  void warn_of_biot_number();
+  [[nodiscard]] double heat_of_rank() const;
+  [[nodiscard]] int held_bits() const;
+  void say(const std::string& text) const;
+
+  HeatOptions options_;
+  HeatMaterials materials_;
+  particle_subset::ContactHeat law_;
+
+  // Kept by LIGGGHTS for each particle.
+  LAMMPS_NS::FixPropertyAtom *temperature_ = nullptr, *carry_ = nullptr, *heat_flux_ = nullptr,
+                             *source_ = nullptr, *contacts_ = nullptr, *walls_ = nullptr;
+  std::vector<std::string> own_properties_;
+
+  bool fused_ = false;                  // in the contact loops of the particle subsets
+  LAMMPS_NS::PairGran* pair_ = nullptr; // where it is not
+  int held_ = 0;
+  bool steps_by_gas_ = false;
+  std::vector<double> heat_capacity_; // of each particle [J/K]
+  std::vector<std::uint8_t> is_held_;
+  bool begun_ = false;                 // a run has begun
+  double heat_at_start_ = 0;           // of all ranks [J]
+  particle_subset::HeatPowers powers_; // of the last step, this rank
+  Energies energies_;
+  Temperatures temperatures_;
+  std::array<double, 16> reduced_{}; // powers and energies of all ranks
+  LAMMPS_NS::bigint looked_at_ = -1; // step of temperatures_
+  bool warned_of_biot_ = false;
+};
+
+} // namespace granflux::liggghts

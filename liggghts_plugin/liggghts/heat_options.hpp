@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "particle_subset/contact_heat.hpp"
+
+namespace granflux::liggghts {
+
+/// The words after `fix ID group granflux/heat`.
+struct HeatOptions {
+  double initial_temperature = 0; ///< K
+  particle_subset::ContactHeatOptions contacts;
+  std::vector<std::string> fixed_groups; ///< whose temperatures stay
+};
+
+/// Throws ConfigError that names the word and what is allowed.
+HeatOptions read_heat_options(std::span<char*> words);
+
+} // namespace granflux::liggghts

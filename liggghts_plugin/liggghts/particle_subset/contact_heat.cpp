@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "contact_heat.hpp"
+
+#include <granflux/coupling/contact_heat/conductance.hpp>
+
+namespace granflux::particle_subset {
+
+ContactHeat::ContactHeat(const ContactHeatOptions& options,
+                         std::span<const ThermalMaterial> materials,
+                         std::span<const double> overlap_ratio)
+    : options_(options), types_(int(materials.size())) {
+  auto ratio = overlap_ratio.begin();
+  for (const ThermalMaterial& a : materials)
+    for (const ThermalMaterial& b : materials)
+      pairs_.push_back(
+          {.conductance_per_radius =
+               coupling::conductance_per_radius(a.conductivity, b.conductivity),
+           .inverse_modulus = coupling::inverse_modulus(a.young, a.poisson, b.young, b.poisson),
+           .overlap_ratio = *ratio++,
+           .share = coupling::heat_share(a.conductivity, b.conductivity)});
+}
+
+bool ContactHeat::needs_no_force() const {
+  return !options_.radius ||
+         std::visit([](const auto& radius) { return !radius.needs_force; }, *options_.radius);
+}
+
+double ContactHeat::conductance(const PairConstants& pair, double radius_i, double radius_j,
+                                double overlap, double force) const {
+  if (!options_.radius)
+    return 0;
+  const coupling::ContactShape shape =
+      coupling::shape_of_pair(radius_i, radius_j, pair.overlap_ratio * overlap, force);
+  return std::visit(
+      [&](const auto& radius) {
+        return pair.conductance_per_radius * radius(pair.inverse_modulus, shape);
+      },
+      *options_.radius);
+}
+
+double ContactHeat::conductance_at_wall(const PairConstants& pair, double radius, double overlap,
+                                        double force) const {
+  if (!options_.radius)
+    return 0;
+  const coupling::ContactShape shape =
+      coupling::shape_at_wall(radius, pair.overlap_ratio * overlap, force);
+  return std::visit(
+      [&](const auto& r_c) {
+        return pair.conductance_per_radius * r_c(pair.inverse_modulus, shape);
+      },
+      *options_.radius);
+}
+
+void HeatOfWall::add(int p, int type, int wall_type, double radius, double overlap, double force,
+                     const Dissipation& made) const {
+  const ContactHeat& law = *contacts.law;
+  HeatRates& particle = contacts.arrays.rates[p];
+  WallHeatRates& wall = contacts.arrays.walls[p];
+  if (temperature) {
+    const double conductance =
+        law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force);
+    wall.conduction += conductance * (*temperature - contacts.arrays.temperature[p]);
+    particle.conductance += conductance;
+  }
+  const double friction = law.friction(made);
+  const double damping = law.options().damping ? made.damping : 0;
+  const double share = law.options().wall_share;
+  particle.friction += (1 - share) * friction;
+  particle.damping += (1 - share) * damping;
+  wall.to_wall += share * (friction + damping);
+}
+
+} // namespace granflux::particle_subset

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <granflux/coupling/contact_heat/contact_radius.hpp>
+
+#include "contact.hpp"
+
+namespace granflux::particle_subset {
+
+/// Heat that one particle receives in its contacts.
+struct HeatRates {
+  double conduction = 0;  ///< from other particles [W]
+  double friction = 0;    ///< its share of what is made, at walls too [W]
+  double damping = 0;     ///< likewise [W]
+  double conductance = 0; ///< of all its contacts, those with walls too [W/K]
+};
+
+/// What one particle and the walls exchange.
+struct WallHeatRates {
+  double conduction = 0; ///< from walls to the particle [W]
+  double to_wall = 0;    ///< heat made in contacts that goes into the wall [W]
+};
+
+/// Arrays of the host, borrowed.
+struct HeatArrays {
+  const double* temperature = nullptr; ///< of owned particles and ghosts [K]
+  HeatRates* rates = nullptr;          ///< of owned particles: added to
+  WallHeatRates* walls = nullptr;      ///< likewise
+};
+
+/// How the heat of friction is found: not at all, from the slider's own work, or as
+/// mu |F_n| |slip| while a contact slides.
+enum class FrictionHeat { off, slider, speed };
+
+struct ContactHeatOptions {
+  std::optional<coupling::AnyContactRadius> radius; ///< of conduction; empty: there is none
+  FrictionHeat friction = FrictionHeat::slider;
+  bool damping = false;    ///< heat of dashpots
+  double wall_share = 0.5; ///< of the heat made at a wall that goes into the wall
+};
+
+/// The material of one type, with its true modulus where the spring is softened.
+struct ThermalMaterial {
+  double conductivity; ///< W/(m K)
+  double young;        ///< Pa; of no use where the radius of contact is found from the overlap
+  double poisson;
+};
+
+/// Conduction through contacts and the heat made in them (docs/theory_heat.md).
+class ContactHeat {
+public:
+  struct PairConstants {
+    double conductance_per_radius; ///< W/(m K)
+    double inverse_modulus;        ///< 1/Pa
+    double overlap_ratio; ///< overlap that the true material would have over that of the spring
+    double share;         ///< of the first one in the heat that is made
+  };
+
+  ContactHeat() = default;
+  /// `overlap_ratio`: of each pair of types, row by row.
+  ContactHeat(const ContactHeatOptions& options, std::span<const ThermalMaterial> materials,
+              std::span<const double> overlap_ratio);
+
+  [[nodiscard]] const ContactHeatOptions& options() const { return options_; }
+  /// Of types from 1 on.
+  [[nodiscard]] const PairConstants& pair(int a, int b) const {
+    return pairs_[std::size_t((a - 1) * types_ + b - 1)];
+  }
+  [[nodiscard]] int types() const { return types_; }
+  /// Whether conduction can do without the force of the contact.
+  [[nodiscard]] bool needs_no_force() const;
+
+  /// Of two touching spheres [W/K]; `force` is what presses them together.
+  [[nodiscard]] double conductance(const PairConstants& pair, double radius_i, double radius_j,
+                                   double overlap, double force) const;
+  [[nodiscard]] double conductance_at_wall(const PairConstants& pair, double radius, double overlap,
+                                           double force) const;
+  /// What the options count of the heat of sliding [W].
+  [[nodiscard]] double friction(const Dissipation& heat) const {
+    return options_.friction == FrictionHeat::slider  ? heat.sliding
+           : options_.friction == FrictionHeat::speed ? heat.sliding_by_speed
+                                                      : 0;
+  }
+
+private:
+  ContactHeatOptions options_;
+  int types_ = 0;
+  std::vector<PairConstants> pairs_;
+};
+
+/// The heat of contacts between particles in one step: the law and where it finds and leaves it.
+struct HeatOfContacts {
+  const ContactHeat* law = nullptr;
+  HeatArrays arrays;
+};
+
+/// Heat at one wall; without a temperature nothing is conducted.
+struct HeatOfWall {
+  HeatOfContacts contacts;
+  std::optional<double> temperature; ///< K
+
+  /// Adds what particle p of a type exchanges with the wall of another.
+  void add(int p, int type, int wall_type, double radius, double overlap, double force,
+           const Dissipation& made) const;
+};
+
+} // namespace granflux::particle_subset

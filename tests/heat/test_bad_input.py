@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: 2026 The GranFlux developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What cannot be meant is refused before the first step, with words that help."""
+
+import unittest
+
+from host import HostTest
+from warm_spheres import data_file, head, wall
+
+GOOD = "initial_temperature 300"
+
+
+class BadInput(HostTest):
+    def refused(self, words, *texts, before="", after="", options=(), without="", style="granflux/heat", group="all"):
+        self.write("data.spheres", data_file([(1, 1e-3, 2000, (0.0, 0.0, 0.0)), (2, 1e-3, 2000, (5e-3, 0.0, 0.0))]))
+        properties = "".join(
+            line for line in head().splitlines(True) if not (without and without in line)
+        )
+        code, output = self.start(
+            f"{properties}group some id 1\n{before}fix move all nve/sphere\nfix heat {group} {style} {words}\n{after}run 1\n",
+            options=options,
+        )
+        self.assertNotEqual(code, 0, output)
+        self.assertNotIn("Segmentation", output)
+        for text in texts:
+            self.assertIn(text, output)
+
+    def test_words(self):
+        for words, *texts in (
+            ("", "initial_temperature is missing"),
+            ("initial_temperature -5", "initial_temperature -5", "from 0.001 to 1e5 K"),
+            ("initial_temperature warm", "initial_temperature warm"),
+            (f"{GOOD} conduction herz", "herz", "hertz geometric overlap stock", "off"),
+            (f"{GOOD} friction yes", "friction yes", "slider, speed or off"),
+            (f"{GOOD} damping yes", "damping yes", "on or off"),
+            (f"{GOOD} wall_share 1.5", "wall_share 1.5", "0 to 1"),
+            (f"{GOOD} fixed_temperature nobody", "fixed_temperature nobody", "no such group"),
+            (f"{GOOD} conducton hertz", "unknown keyword conducton", "conduction"),
+            (f"{GOOD} friction", "friction has no value"),
+        ):
+            with self.subTest(words=words):
+                self.refused(words, *texts)
+
+    def test_group(self):
+        self.refused(GOOD, "group some", "must be all", group="some")
+
+    def test_missing_properties(self):
+        for name in ("thermalCapacity", "thermalConductivity", "youngsModulusOriginal", "poissonsRatio"):
+            with self.subTest(name=name):
+                self.refused(GOOD, name, "peratomtype", without=name)
+
+    def test_two_of_them(self):
+        self.refused(GOOD, "fix heat is one already", after=f"fix more all granflux/heat {GOOD}\n")
+
+    def test_beside_the_own_law_of_the_host(self):
+        self.refused(GOOD, "changes the same temperatures", before="fix old all heat/gran/conduction initial_temperature 300.\n")
+
+    def test_forces_by_the_host(self):
+        self.refused(GOOD, "conduction overlap, stock or off", options=("-subset", "off"))
+        self.refused(f"{GOOD} conduction overlap", "friction off", options=("-subset", "off"))
+        self.refused(
+            f"{GOOD} conduction overlap friction off",
+            "fix floor wall/gran",
+            before=wall("floor", "zplane 0", more="temperature 400"),
+            options=("-subset", "off"),
+        )
+
+    def test_too_long_a_step(self):
+        self.write(
+            "data.spheres", data_file([(1, 1e-3, 2000, (0.0, 0.0, 0.0)), (2, 1e-3, 2000, (0.99e-3, 0.0, 0.0))])
+        )
+        code, output = self.start(head(dt=100) + f"fix hold all freeze\nfix heat all granflux/heat {GOOD}\nrun 2\n")
+        self.assertNotEqual(code, 0)
+        self.assertIn("use a smaller one", output)
+
+
+if __name__ == "__main__":
+    unittest.main()
