@@ -6,7 +6,7 @@ import unittest
 
 from beside_stock import AFTER_100, BesideStock, dense, words
 from host import GRANFLUX, LIGGGHTS, thermo_rows
-from packed_box import difference, script, snapshots
+from packed_box import data_file, difference, script, snapshots
 
 MODEL = words("hertz", "tangential history", "", "rolling_friction epsd2")
 BY_SUBSET = "contact forces by particle subset"
@@ -153,6 +153,20 @@ fix             ins all insert/pack seed 49979687 distributiontemplate all inser
         self.assertIn(BY_SUBSET, ours)
         self.assertGreater(thermo_rows(ours)[-1][1], 150)
         self.compare_dumps(limit=1e-8)  # two runs of the stock program on 1 and 2 ranks are as far apart
+
+    def test_growing_spheres(self):
+        """They grow on the steps on which lists are built, after that: who touches by growing alone had
+        parted, and has no memory."""
+        more = """
+neigh_modify    every 7 check no
+compute         radius all property/atom radius
+variable        grown atom 1.004*2*c_radius
+fix             grow all adapt 7 atom diameter v_grown
+"""
+        self.write("data.box", data_file((7, 7, 7), 1.03, 0.5, 50.0, 0.02))
+        _, ours = self.run_both(script("PROGRAM.txt", MODEL, more=more, runs=(100,), step=5e-6))
+        self.assertIn(BY_SUBSET, ours)
+        self.compare_dumps()
 
     def test_change_of_path(self):
         """Contacts keep their memory when a run goes by LIGGGHTS' own loop, and when the next does not."""

@@ -9,10 +9,12 @@
 #include <mpi.h>
 
 #include <liggghts/atom.h>
+#include <liggghts/force.h>
 
 #include <algorithm>
 #include <atomic>
 
+#include "pair_gran.hpp"
 #include "team.hpp"
 #include "verlet.hpp"
 
@@ -35,6 +37,8 @@ void Neighbor::init() {
 
 void Neighbor::build(int topology) {
   LAMMPS_NS::Neighbor::build(topology);
+  if (auto* pair = dynamic_cast<PairGran*>(force->pair))
+    pair->build_lists();
   travel_ = 0;
 }
 

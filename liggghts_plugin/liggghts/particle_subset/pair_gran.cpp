@@ -146,19 +146,12 @@ Particles PairGran::particles() const {
           .torque = rows(atom->torque)};
 }
 
-void PairGran::compute(int eflag, int vflag) {
-  if (by_subset_)
-    build_lists_if_old();
-  PairGranProxy::compute(eflag, vflag);
-}
-
 bool PairGran::begin_own_work(int eflag, int vflag) {
   if (!by_subset_ || forceoff() || update->setupflag)
     return false;
   shearupdate_ = 1; // as PairGranProxy::compute() has it in a step
   if (!only_forces_wanted(eflag, vflag, 0))
     return false;
-  build_lists_if_old();
   computeflag_ = 1;
   evflag = vflag_fdotr = 0;
   if (heat_)
@@ -191,15 +184,10 @@ void PairGran::add_heat_alone() {
   }
 }
 
-void PairGran::build_lists_if_old() {
-  // Where contacts are remembered, the fix has taken the memory over before every build.
-  if (neighbor->ago == 0 && !(history && computeflag_)) {
-    const Lap lap(work_times().contact_lists);
-    build_lists();
-  }
-}
-
 void PairGran::build_lists() {
+  if (!by_subset_)
+    return;
+  const Lap lap(work_times().contact_lists);
   ContactLists::Excluded excluded;
   if (neighbor->exclude_setting())
     excluded = [this](int i, int j) {

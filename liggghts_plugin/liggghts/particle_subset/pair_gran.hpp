@@ -29,8 +29,11 @@ public:
   void settings(int narg, char** arg) override;
   void init_style() override;
   void init_granular() override;
-  void compute(int eflag, int vflag) override;
   void compute_force(int eflag, int vflag, int addflag) override;
+
+  /// When LIGGGHTS builds its lists: before fixes may change radii, and after fix contacthistory
+  /// has taken the memory of contacts over.
+  void build_lists();
 
   /// Forces alone, in a step: what compute() does.
   bool begin_own_work(int eflag, int vflag) override;
@@ -49,8 +52,6 @@ private:
   void add_heat_alone();
   [[nodiscard]] const HeatOfContacts* heat() const { return heat_ ? &heat_now_ : nullptr; }
   [[nodiscard]] std::string reason_for_stock();
-  void build_lists_if_old();
-  void build_lists();
   void show_lists_to_host();
   [[nodiscard]] Particles particles() const;
   [[nodiscard]] bool only_forces_wanted(int eflag, int vflag, int addflag);

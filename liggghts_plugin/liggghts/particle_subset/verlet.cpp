@@ -230,7 +230,9 @@ void Verlet::exchange_and_build_lists(bigint now) {
   const Lap lap(times.neighbour_lists);
   if (modify->n_pre_neighbor)
     modify->pre_neighbor();
+  const double lists_before = times.contact_lists;
   neighbor->build(1);
+  times.neighbour_lists -= times.contact_lists - lists_before;
   timer->stamp(TIME_NEIGHBOR);
 }
 
@@ -288,11 +290,9 @@ void Verlet::compute_forces() {
   }
   const double contacts_before = times.contacts;
   if (pair_compute_flag) {
-    const double lists_before = times.contact_lists;
     auto* own = dynamic_cast<PairGran*>(force->pair);
     if (add_part(own, times.contacts, [&] { force->pair->compute(eflag, vflag); }))
       clear_.contacts = own;
-    times.contacts -= times.contact_lists - lists_before;
   }
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fmask[i] & POST_FORCE) {

@@ -44,14 +44,12 @@ template <class Near> void WallPairs::turn_round(int triangles, int owned, Near&
   place.resize(std::size_t(begin.back()));
   int next_place = 0;
   for (int t = 0; t < triangles; ++t)
-    for (const int p : near(t)) {
+    for (const int p : near(t))
       if (p < owned) {
         const int k = at(row_, p)++;
         at(triangle, k) = t;
-        at(place, k) = next_place;
+        at(place, k) = next_place++;
       }
-      ++next_place;
-    }
   current = true;
 }
 
