@@ -25,6 +25,8 @@ from script import HUNDRED, LATE, THOUSAND, history_columns
 
 RANKS, THREADS = int(os.environ["RANKS"]), int(os.environ["THREADS"])
 LONG = os.environ["RUNS"] == "long"
+# Four threads that take turns on two cores need minutes for the late steps.
+STEPS = LATE if LONG or RANKS * THREADS <= 2 else HUNDRED
 CASES = [case for case in read_cases() if LONG or case.runs == "short"]
 SPREAD = json.loads((REFERENCES / "manifest.json").read_text())["spread"]
 
@@ -71,14 +73,15 @@ class References(unittest.TestCase):
         for case in CASES:
             (self.folder / case.name).mkdir()
             output = run_case(case, os.environ["GRANFLUX"], shlex.split(os.environ["MPIRUN"]),
-                              self.folder / case.name, LATE, RANKS, THREADS)
+                              self.folder / case.name, STEPS, RANKS, THREADS)
             self.expect_path_of_threads(case, output)
             self.expect_equal(case, "first", "--step", "1", "--default", str(FIRST_TOLERANCE))
             self.expect_equal(case, "hundred", "--step", str(HUNDRED), "--default", str(HUNDRED_TOLERANCE))
             if case.history_size:
                 self.expect_equal_contacts(case)
-            self.expect_no_further_than_rounding(case, ratios)
-            self.expect_equal_statistics(case)
+            if STEPS == LATE:
+                self.expect_no_further_than_rounding(case, ratios)
+                self.expect_equal_statistics(case)
         if LONG:
             self.assertLessEqual(statistics.median(ratios), 1.0, sorted(ratios))
 
