@@ -37,14 +37,17 @@
 
 namespace granflux::liggghts {
 
+using particle_subset::DetailSums;
+using particle_subset::HeatDetails;
 using particle_subset::HeatPowers;
 using particle_subset::HeatRates;
 using particle_subset::WallHeatRates;
 
 namespace {
 
-constexpr int vector_length = 22;  // 5 of the particles, 8 powers, 8 energies, the rest
-constexpr double biot_limit = 0.1; // above it a particle is not of one temperature
+constexpr int vector_length = 22;       // 5 of the particles, 8 powers, 8 energies, the rest
+constexpr double biot_limit = 0.1;      // above it a particle is not of one temperature
+constexpr double radiation_limit = 700; // K; above it radiation cannot be neglected
 
 template <class Row> Row* rows(const LAMMPS_NS::FixPropertyAtom& property) {
   return property.array_atom ? reinterpret_cast<Row*>(property.array_atom[0]) : nullptr;
@@ -117,6 +120,7 @@ void FixHeat::post_create() {
   heat_flux_ = property("heatFlux", 1, false, false, 0);
   source_ = property("heatSource", 1, true, false, 0);
   contacts_ = property("heatContact", doubles(sizeof(HeatRates)), false, false, 0);
+  details_ = property("heatDetail", doubles(sizeof(HeatDetails)), false, false, 0);
   walls_ = property("heatWall", doubles(sizeof(WallHeatRates)), false, false, 0);
 }
 
@@ -231,7 +235,16 @@ particle_subset::HeatOfContacts FixHeat::heat_of_contacts() {
   return {.law = &law_,
           .arrays = {.temperature = temperature_->vector_atom,
                      .rates = rows<HeatRates>(*contacts_),
-                     .walls = rows<WallHeatRates>(*walls_)}};
+                     .walls = rows<WallHeatRates>(*walls_),
+                     .details = wants_details() ? rows<HeatDetails>(*details_) : nullptr}};
+}
+
+/// They cost more than the sum: where they must be known apart in every step, where they can be
+/// seen, and in the first and last step.
+bool FixHeat::wants_details() const {
+  const auto now = update->ntimestep;
+  return options_.contacts.damping || now == output->next || now == update->laststep ||
+         now == update->firststep + 1;
 }
 
 /// Ghosts take the temperature of their particles; rates of walls start from zero.
@@ -239,6 +252,8 @@ void FixHeat::pre_force(int) {
   temperature_->do_forward_comm();
   if (auto* walls = rows<WallHeatRates>(*walls_))
     std::fill_n(walls, atom->nlocal, WallHeatRates{});
+  if (auto* details = rows<HeatDetails>(*details_); details && wants_details())
+    std::fill_n(details, atom->nlocal, HeatDetails{});
   if (pair_)
     conduct_by_shape();
 }
@@ -263,10 +278,12 @@ void FixHeat::conduct_by_shape() {
       const double heat_to_i =
           conductance * (heat.arrays.temperature[j] - heat.arrays.temperature[i]);
       heat.arrays.rates[i].conduction += heat_to_i;
-      heat.arrays.rates[i].conductance += conductance;
+      if (heat.arrays.details)
+        heat.arrays.details[i].conductance += conductance;
       if (j < atom->nlocal) {
         heat.arrays.rates[j].conduction -= heat_to_i;
-        heat.arrays.rates[j].conductance += conductance;
+        if (heat.arrays.details)
+          heat.arrays.details[j].conductance += conductance;
       }
     }
   }
@@ -308,28 +325,43 @@ void FixHeat::step(coupling::HeatState* gas) {
                                                    .contacts = rows<HeatRates>(*contacts_),
                                                    .walls = rows<WallHeatRates>(*walls_),
                                                    .gas = gas};
+  const double dt = update->dt;
   std::vector<HeatPowers> parts(static_cast<std::size_t>(omp_get_max_threads()));
   particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
     parts[std::size_t(omp_get_thread_num())] =
-        particle_subset::step_temperature(particles, materials_.capacity, held_, update->dt, range);
+        step_temperature(particles, materials_.capacity, held_, dt, range);
   });
   powers_ = {};
   for (const HeatPowers& part : parts)
     powers_ += part;
-  const double dt = update->dt;
+  if (wants_details())
+    sum_up_details(particles);
   energies_.conduction += dt * powers_.conduction;
   energies_.walls += dt * powers_.walls;
-  energies_.friction += dt * powers_.friction;
-  energies_.damping += dt * powers_.damping;
+  energies_.made += dt * powers_.made;
+  if (options_.contacts.damping)
+    energies_.damping += dt * detail_.damping;
   energies_.convection += dt * powers_.convection;
   energies_.source += dt * powers_.source;
   energies_.to_walls += dt * powers_.to_walls;
   energies_.held += dt * powers_.held;
-  if (powers_.conduction_number > 1)
+}
+
+void FixHeat::sum_up_details(const particle_subset::HeatedParticles& particles) {
+  const double dt = update->dt;
+  std::vector<DetailSums> parts(static_cast<std::size_t>(omp_get_max_threads()));
+  particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
+    parts[std::size_t(omp_get_thread_num())] = particle_subset::sum_details(
+        rows<HeatDetails>(*details_), particles, materials_.capacity, dt, range);
+  });
+  detail_ = {};
+  for (const DetailSums& part : parts)
+    detail_ += part;
+  if (detail_.conduction_number > 1)
     error->one(FLERR, fmt::format("fix {} granflux/heat: the time step of {} s is {:.3g} times the "
                                   "time in which a particle's contacts would take it to the "
                                   "temperature of its neighbours: use a smaller one",
-                                  id, dt, powers_.conduction_number)
+                                  id, dt, detail_.conduction_number)
                           .c_str());
 }
 
@@ -349,7 +381,7 @@ void FixHeat::look_at_temperatures() {
   const bool conducts = options_.contacts.radius.has_value();
   Temperatures mine{.low = std::numeric_limits<double>::infinity(),
                     .high = -std::numeric_limits<double>::infinity()};
-  const auto* rates = rows<HeatRates>(*contacts_);
+  const auto* details = rows<HeatDetails>(*details_);
   for (int i = 0; i < atom->nlocal; ++i) {
     const auto type = std::size_t(atom->type[i]) - 1;
     const double temperature = temperature_->vector_atom[i];
@@ -358,7 +390,7 @@ void FixHeat::look_at_temperatures() {
     mine.high = std::max(mine.high, temperature);
     if (conducts) {
       const double biot = coupling::biot_number(
-          rates[i].conductance, materials_.materials[type].conductivity, atom->radius[i]);
+          details[i].conductance, materials_.materials[type].conductivity, atom->radius[i]);
       mine.biot_sum += biot;
       mine.biot_max = std::max(mine.biot_max, biot);
     }
@@ -366,9 +398,10 @@ void FixHeat::look_at_temperatures() {
   mine.heat = heat_of_rank();
   mine.particles = atom->nlocal;
   const Energies& e = energies_;
-  reduced_ = {powers_.conduction,   powers_.walls,    powers_.friction,   powers_.damping,
+  const double friction = e.made.value() - e.damping.value();
+  reduced_ = {powers_.conduction,   powers_.walls,    detail_.friction,   detail_.damping,
               powers_.convection,   powers_.source,   powers_.to_walls,   powers_.held,
-              e.conduction.value(), e.walls.value(),  e.friction.value(), e.damping.value(),
+              e.conduction.value(), e.walls.value(),  friction,           e.damping.value(),
               e.convection.value(), e.source.value(), e.to_walls.value(), e.held.value()};
   MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), int(reduced_.size()), MPI_DOUBLE, MPI_SUM, world);
   double sums[] = {mine.heat, mine.capacity, mine.biot_sum, mine.particles};
@@ -388,6 +421,16 @@ void FixHeat::look_at_temperatures() {
                    .particles = sums[3],
                    .carried = sums[0] - heat_at_start_ - received};
   warn_of_biot_number();
+  warn_of_radiation();
+}
+
+void FixHeat::warn_of_radiation() {
+  if (temperatures_.high <= radiation_limit || warned_of_radiation_)
+    return;
+  warned_of_radiation_ = true;
+  say(fmt::format("granflux: WARNING: the hottest particle has {:.0f} K: above {} K radiation "
+                  "matters, which is not computed\n",
+                  temperatures_.high, radiation_limit));
 }
 
 void FixHeat::warn_of_biot_number() {

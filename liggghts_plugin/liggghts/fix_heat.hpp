@@ -56,8 +56,7 @@ public:
 private:
   /// Heat received since the fix was made [J], of this rank.
   struct Energies {
-    coupling::CompensatedSum conduction, walls, friction, damping, convection, source, to_walls,
-        held;
+    coupling::CompensatedSum conduction, walls, made, damping, convection, source, to_walls, held;
   };
   /// Over all particles of all ranks.
   struct Temperatures {
@@ -72,11 +71,14 @@ private:
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool ghosts,
                                        double initial);
   void check_script() const;
+  [[nodiscard]] bool wants_details() const;
   void link_walls();
   void conduct_by_shape();
   void step(coupling::HeatState* gas);
+  void sum_up_details(const particle_subset::HeatedParticles& particles);
   void look_at_temperatures();
   void warn_of_biot_number();
+  void warn_of_radiation();
   [[nodiscard]] double heat_of_rank() const;
   [[nodiscard]] int held_bits() const;
   void say(const std::string& text) const;
@@ -87,7 +89,8 @@ private:
 
   // Kept by LIGGGHTS for each particle.
   LAMMPS_NS::FixPropertyAtom *temperature_ = nullptr, *carry_ = nullptr, *heat_flux_ = nullptr,
-                             *source_ = nullptr, *contacts_ = nullptr, *walls_ = nullptr;
+                             *source_ = nullptr, *contacts_ = nullptr, *details_ = nullptr,
+                             *walls_ = nullptr;
   std::vector<std::string> own_properties_;
 
   bool fused_ = false;                  // in the contact loops of the particle subsets
@@ -99,11 +102,12 @@ private:
   bool begun_ = false;                 // a run has begun
   double heat_at_start_ = 0;           // of all ranks [J]
   particle_subset::HeatPowers powers_; // of the last step, this rank
+  particle_subset::DetailSums detail_; // of the last step that asked for details, this rank
   Energies energies_;
   Temperatures temperatures_;
   std::array<double, 16> reduced_{}; // powers and energies of all ranks
   LAMMPS_NS::bigint looked_at_ = -1; // step of temperatures_
-  bool warned_of_biot_ = false;
+  bool warned_of_biot_ = false, warned_of_radiation_ = false;
 };
 
 } // namespace granflux::liggghts

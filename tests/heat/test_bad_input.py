@@ -65,6 +65,21 @@ class BadInput(HostTest):
             options=("-subset", "off"),
         )
 
+    def test_warnings(self):
+        # Soft contacts of large radius, and 800 K.
+        self.write(
+            "data.spheres", data_file([(1, 1e-3, 2000, (0.0, 0.0, 0.0)), (2, 1e-3, 2000, (0.8e-3, 0.0, 0.0))])
+        )
+        for temperature, words, *texts in (
+            (800, "conduction off", "above 700 K radiation matters"),
+            (300, "conduction overlap", "Biot number of a particle is", "above 0.1"),
+        ):
+            output = self.run_script(
+                head() + f"fix hold all freeze\nfix heat all granflux/heat initial_temperature {temperature} {words}\nrun 1\n"
+            )
+            for text in ("WARNING", *texts):
+                self.assertIn(text, output)
+
     def test_too_long_a_step(self):
         self.write(
             "data.spheres", data_file([(1, 1e-3, 2000, (0.0, 0.0, 0.0)), (2, 1e-3, 2000, (0.99e-3, 0.0, 0.0))])

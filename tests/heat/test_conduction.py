@@ -102,7 +102,7 @@ class LineOfSpheres(HostTest):
 
     COUNT, HOT, COLD = 6, 400, 300
 
-    def run_line(self, walls, processors=1, words="", count=COUNT):
+    def run_line(self, walls, processors=1, words="", count=COUNT, steps=2000):
         pitch = DIAMETER - OVERLAP
         first = DIAMETER / 2 - OVERLAP
         self.end = first + (count - 1) * pitch + DIAMETER / 2 - OVERLAP
@@ -116,9 +116,9 @@ class LineOfSpheres(HostTest):
             head(kn=STIFFNESS, dt=5, capacity=CAPACITY)
             + walls.replace("END", repr(self.end))
             + f"fix hold all move linear 0 0 0\nfix heat all granflux/heat initial_temperature 340 {words}\n"
-            + TEMPERATURES.format(every=2000)
-            + thermo("f_heat[7] f_heat[15] f_heat[22] f_heat[4] f_heat[5] f_heat[14]", 2000)
-            + "run 2000\n",
+            + TEMPERATURES.format(every=steps)
+            + thermo("f_heat[7] f_heat[15] f_heat[22] f_heat[4] f_heat[5] f_heat[14]", steps)
+            + f"run {steps}\n",
             ranks=processors,
         )
         return [row[0] for row in last_snapshot(self.read("temperatures")).values()], thermo_rows(output)[-1]
@@ -157,8 +157,8 @@ class LineOfSpheres(HostTest):
             self.assertAlmostEqual(row[5] / ((2 * biot[0] + 4 * biot[1]) / 6), 1, delta=1e-8)
 
     def test_two_ranks(self):
-        one, _ = self.run_line(self.primitive())
-        two, _ = self.run_line(self.primitive(), processors=2)
+        one, _ = self.run_line(self.primitive(), steps=200)
+        two, _ = self.run_line(self.primitive(), processors=2, steps=200)
         for a, b in zip(one, two):
             self.assertAlmostEqual(a, b, delta=1e-10)
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cmath>
+
 #include <granflux/cfd/vec3.hpp>
 
 namespace granflux::particle_subset {
@@ -22,9 +24,11 @@ struct Contact {
 /// Powers that a contact turns into heat [W]. A kernel without heat leaves out what makes them.
 struct Dissipation {
   double sliding = 0; ///< by the slider: its own displacement against its force
-  /// mu |F_n| |slip| while the contact slides: Eq. 8 of Amritkar, Deb, Tafti (2014).
-  double sliding_by_speed = 0;
-  double damping = 0; ///< by dashpots
+  /// By Eq. 8 of Amritkar, Deb, Tafti (2014), mu |F_n| |slip| while the contact slides: its parts.
+  double slider_force = 0, slip_squared = 0; ///< N, 0 while it sticks; m2/s2
+  double damping = 0;                        ///< by dashpots
+
+  [[nodiscard]] double sliding_by_speed() const { return slider_force * std::sqrt(slip_squared); }
 };
 
 /// On i, with the heat that it makes.

@@ -93,7 +93,7 @@ private:
     gather(rows, count);
     evaluate(batch_, count, batch_constants_, dt_, heat_);
     if constexpr (Heat::acts)
-      heat_.evaluate(batch_, count);
+      heat_.evaluate(batch_, count, own_);
     scatter(rows, count);
   }
 

@@ -62,13 +62,17 @@ void HeatOfWall::add(int p, int type, int wall_type, double radius, double overl
     const double conductance =
         law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force);
     wall.conduction += conductance * (*temperature - contacts.arrays.temperature[p]);
-    particle.conductance += conductance;
+    if (contacts.arrays.details)
+      contacts.arrays.details[p].conductance += conductance;
   }
   const double friction = law.friction(made);
   const double damping = law.options().damping ? made.damping : 0;
   const double share = law.options().wall_share;
-  particle.friction += (1 - share) * friction;
-  particle.damping += (1 - share) * damping;
+  particle.made += (1 - share) * (friction + damping);
+  if (contacts.arrays.details) {
+    contacts.arrays.details[p].friction += (1 - share) * friction;
+    contacts.arrays.details[p].damping += (1 - share) * damping;
+  }
   wall.to_wall += share * (friction + damping);
 }
 

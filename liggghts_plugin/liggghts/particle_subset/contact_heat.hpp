@@ -14,10 +14,14 @@ namespace granflux::particle_subset {
 
 /// Heat that one particle receives in its contacts.
 struct HeatRates {
-  double conduction = 0;  ///< from other particles [W]
-  double friction = 0;    ///< its share of what is made, at walls too [W]
-  double damping = 0;     ///< likewise [W]
-  double conductance = 0; ///< of all its contacts, those with walls too [W/K]
+  double conduction = 0; ///< from other particles [W]
+  double made = 0;       ///< its share of what friction and damping make, at walls too [W]
+};
+
+/// More of the same, in steps that ask for it.
+struct HeatDetails {
+  double friction = 0, damping = 0; ///< of what is made [W]
+  double conductance = 0;           ///< of all its contacts, those with walls too [W/K]
 };
 
 /// What one particle and the walls exchange.
@@ -31,6 +35,7 @@ struct HeatArrays {
   const double* temperature = nullptr; ///< of owned particles and ghosts [K]
   HeatRates* rates = nullptr;          ///< of owned particles: added to
   WallHeatRates* walls = nullptr;      ///< likewise
+  HeatDetails* details = nullptr;      ///< likewise; null in steps that do not ask for them
 };
 
 /// How the heat of friction is found: not at all, from the slider's own work, or as
@@ -83,7 +88,7 @@ public:
   /// What the options count of the heat of sliding [W].
   [[nodiscard]] double friction(const Dissipation& heat) const {
     return options_.friction == FrictionHeat::slider  ? heat.sliding
-           : options_.friction == FrictionHeat::speed ? heat.sliding_by_speed
+           : options_.friction == FrictionHeat::speed ? heat.sliding_by_speed()
                                                       : 0;
   }
 

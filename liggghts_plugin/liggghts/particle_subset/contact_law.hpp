@@ -23,7 +23,9 @@ struct TouchingPair {
 struct ContactForce {
   Vec3 force; ///< on i; the opposite on j
   Vec3 torque_i, torque_j;
+  // What heat starts from.
   double pressing; ///< normal force without cohesion [N]
+  double overlap, reduced_radius;
   Dissipation heat;
 };
 
@@ -80,6 +82,8 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
                    .torque_i = {},
                    .torque_j = {},
                    .pressing = normal.force,
+                   .overlap = c.overlap,
+                   .reduced_radius = c.reduced_radius,
                    .heat = {}};
     f.heat.damping = damping_power(c, normal, dt);
     if constexpr (Cohesion::acts) {
@@ -92,7 +96,8 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
           Tangential::force(k.tangential, c, normal, dt, tangential_history);
       f.force += tangential;
       f.heat.sliding = heat.sliding;
-      f.heat.sliding_by_speed = heat.sliding_by_speed;
+      f.heat.slider_force = heat.slider_force;
+      f.heat.slip_squared = heat.slip_squared;
       f.heat.damping += heat.damping;
       const Vec3 moment = cross(c.normal, tangential);
       f.torque_i = -arm_i * moment;

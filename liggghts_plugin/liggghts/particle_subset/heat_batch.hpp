@@ -4,6 +4,7 @@
 
 #include "contact_batch.hpp"
 #include "contact_heat.hpp"
+#include "subset.hpp"
 
 namespace granflux::particle_subset {
 
@@ -33,12 +34,15 @@ public:
   /// With the forces.
   void set(int k, const ContactForce& f) {
     pressing_[k] = f.pressing;
+    overlap_[k] = f.overlap;
+    reduced_radius_[k] = f.reduced_radius;
     sliding_[k] = f.heat.sliding;
-    sliding_by_speed_[k] = f.heat.sliding_by_speed;
+    slider_force_[k] = f.heat.slider_force;
+    slip_squared_[k] = f.heat.slip_squared;
     damping_[k] = f.heat.damping;
   }
-  /// After the forces.
-  void evaluate(const ContactBatch& batch, int count);
+  /// After the forces; details are added at once, of the particles that are `own`.
+  void evaluate(const ContactBatch& batch, int count, Range own);
 
   [[nodiscard]] HeatRates& rates(int particle) const { return arrays_.rates[particle]; }
   void prefetch(int particle) const {
@@ -47,16 +51,12 @@ public:
   }
   void add_to_i(HeatRates& to, int k) const {
     to.conduction += conduction_[k];
-    to.friction += share_[k] * friction_[k];
-    to.damping += share_[k] * damping_[k];
-    to.conductance += conductance_[k];
+    to.made += made_i_[k];
   }
   void add_to_j(int j, int k) const {
     HeatRates& to = rates(j);
     to.conduction -= conduction_[k];
-    to.friction += (1 - share_[k]) * friction_[k];
-    to.damping += (1 - share_[k]) * damping_[k];
-    to.conductance += conductance_[k];
+    to.made += made_j_[k];
   }
 
 private:
@@ -68,15 +68,17 @@ private:
   }
   template <class Radius>
   void conduct(const Radius& radius, const ContactBatch& batch, int whole_groups);
+  void share_out(int whole_groups);
+  void add_details(const ContactBatch& batch, int count, Range own) const;
 
   using Column = ContactBatch::Column;
   const ContactHeat& law_;
   const HeatArrays arrays_;
-  const double* friction_; // the column that the law counts
   alignas(64) Column temperature_i_{}, temperature_j_{};
   alignas(64) Column per_radius_{}, inverse_modulus_{}, overlap_ratio_{}, share_{};
-  alignas(64) Column pressing_{}, sliding_{}, sliding_by_speed_{}, damping_{};
-  alignas(64) Column conductance_{}, conduction_{}, none_{};
+  alignas(64) Column pressing_{}, overlap_{}, reduced_radius_{};
+  alignas(64) Column sliding_{}, slider_force_{}, slip_squared_{}, damping_{};
+  alignas(64) Column conductance_{}, conduction_{}, made_i_{}, made_j_{};
 };
 
 } // namespace granflux::particle_subset

@@ -12,13 +12,11 @@ namespace granflux::particle_subset {
 HeatPowers& HeatPowers::operator+=(const HeatPowers& o) & {
   conduction += o.conduction;
   walls += o.walls;
-  friction += o.friction;
-  damping += o.damping;
+  made += o.made;
   convection += o.convection;
   source += o.source;
   to_walls += o.to_walls;
   held += o.held;
-  conduction_number = std::max(conduction_number, o.conduction_number);
   return *this;
 }
 
@@ -32,7 +30,7 @@ HeatPowers step(const HeatedParticles& p, std::span<const double> capacity, int 
     const HeatRates& rates = p.contacts[i];
     const double mc = p.mass[i] * capacity[std::size_t(p.type[i]) - 1];
     const bool is_held = (p.groups[i] & held) != 0;
-    double received = rates.conduction + rates.friction + rates.damping;
+    double received = rates.conduction + rates.made;
     if constexpr (with_walls) {
       received += p.walls[i].conduction;
       sum.walls += p.walls[i].conduction;
@@ -47,10 +45,8 @@ HeatPowers step(const HeatedParticles& p, std::span<const double> capacity, int 
     p.heat_flux[i] = received;
     const double total = received + p.source[i];
     sum.conduction += rates.conduction;
-    sum.friction += rates.friction;
-    sum.damping += rates.damping;
+    sum.made += rates.made;
     sum.source += p.source[i];
-    sum.conduction_number = std::max(sum.conduction_number, dt * rates.conductance / mc);
     if (is_held) {
       sum.held += total;
       continue;
@@ -65,6 +61,25 @@ HeatPowers step(const HeatedParticles& p, std::span<const double> capacity, int 
 }
 
 } // namespace
+
+DetailSums& DetailSums::operator+=(const DetailSums& o) & {
+  friction += o.friction;
+  damping += o.damping;
+  conduction_number = std::max(conduction_number, o.conduction_number);
+  return *this;
+}
+
+DetailSums sum_details(const HeatDetails* details, const HeatedParticles& p,
+                       std::span<const double> capacity, double dt, Range range) {
+  DetailSums sum;
+  for (int i = range.begin; i < range.end; ++i) {
+    sum.friction += details[i].friction;
+    sum.damping += details[i].damping;
+    const double mc = p.mass[i] * capacity[std::size_t(p.type[i]) - 1];
+    sum.conduction_number = std::max(sum.conduction_number, dt * details[i].conductance / mc);
+  }
+  return sum;
+}
 
 HeatPowers step_temperature(const HeatedParticles& p, std::span<const double> capacity, int held,
                             double dt, Range range) {

@@ -29,14 +29,11 @@ struct HeatedParticles {
 struct HeatPowers {
   double conduction = 0; ///< from other particles: sums to zero over all of them
   double walls = 0;      ///< conducted from walls
-  double friction = 0;
-  double damping = 0;
+  double made = 0;       ///< by friction and damping
   double convection = 0;
   double source = 0;
   double to_walls = 0; ///< made in contacts and gone into walls, not into particles
   double held = 0;     ///< taken off those of fixed temperature
-  /// Largest dt * conductance / heat capacity of a particle: above 1 conduction overshoots.
-  double conduction_number = 0;
 
   HeatPowers& operator+=(const HeatPowers& o) &;
 };
@@ -47,5 +44,16 @@ struct HeatPowers {
 [[nodiscard]] HeatPowers step_temperature(const HeatedParticles& p,
                                           std::span<const double> capacity, int held, double dt,
                                           Range range);
+
+/// What the details of the contacts of a range add up to.
+struct DetailSums {
+  double friction = 0, damping = 0; ///< W
+  /// Largest dt * conductance / heat capacity of a particle: above 1 conduction overshoots.
+  double conduction_number = 0;
+
+  DetailSums& operator+=(const DetailSums& o) &;
+};
+[[nodiscard]] DetailSums sum_details(const HeatDetails* details, const HeatedParticles& p,
+                                     std::span<const double> capacity, double dt, Range range);
 
 } // namespace granflux::particle_subset

@@ -69,7 +69,8 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
           Tangential::force(k.tangential, c, normal, dt, tangential_history);
       f.force += tangential;
       f.heat.sliding = heat.sliding;
-      f.heat.sliding_by_speed = heat.sliding_by_speed;
+      f.heat.slider_force = heat.slider_force;
+      f.heat.slip_squared = heat.slip_squared;
       f.heat.damping += heat.damping;
       f.torque = -arm * cross(c.normal, tangential);
     }

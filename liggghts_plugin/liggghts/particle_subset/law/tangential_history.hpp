@@ -41,7 +41,8 @@ struct TangentialHistory {
     // The slider gives way by what the spring is shortened, against the mean force of the step.
     on_i.heat.sliding =
         0.5 * normal.tangential_stiffness / dt * dot(before + elongation, (1 - held) * spring);
-    on_i.heat.sliding_by_speed = slides ? limit * norm(c.slip) : 0.0;
+    on_i.heat.slider_force = slides ? limit : 0.0;
+    on_i.heat.slip_squared = dot(c.slip, c.slip);
     on_i.heat.damping = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
     return on_i;
   }

@@ -32,7 +32,8 @@ struct TangentialNoHistory {
     TangentialForce on_i{-damping * c.slip, {}};
     const double power = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
     on_i.heat.sliding = slides ? power : 0.0;
-    on_i.heat.sliding_by_speed = slides ? limit * speed : 0.0;
+    on_i.heat.slider_force = slides ? limit : 0.0;
+    on_i.heat.slip_squared = speed * speed;
     on_i.heat.damping = slides ? 0.0 : power;
     return on_i;
   }
