@@ -34,10 +34,10 @@ void write_history(const CylinderFlow& flow, const std::string& path) {
 
 std::string json(const CylinderFlow& f) {
   return fmt::format("{{\"drag\": {:.6g}, \"pressure_drag\": {:.6g}, \"wake_length\": {:.6g}, "
-                     "\"lift\": {:.6g}, \"strouhal\": {:.6g}, \"periods\": {}, \"growth\": {:.6g}, "
+                     "\"lift\": {:.6g}, \"strouhal\": {:.6g}, \"periods\": {}, \"radial\": {}, "
                      "\"time\": {:.6g}, \"steps\": {}}}",
                      f.drag, f.pressure_drag, f.wake_length, f.lift, f.strouhal, f.periods,
-                     f.growth, f.time, f.steps);
+                     f.radial, f.time, f.steps);
 }
 
 int run(int argc, char** argv) {
@@ -48,11 +48,13 @@ int run(int argc, char** argv) {
   CavityGrid cavity;
   CylinderGrid2D around;
   Steadiness steadiness;
+  bool implicit = false;
   std::string history;
   double end_time = 150;
   int periods = 8;
   const auto add_steadiness = [&](CLI::App* flow) {
     flow->add_option("--courant", steadiness.courant, "Courant number");
+    flow->add_flag("--implicit", implicit, "Crank-Nicolson for convection, too");
     flow->add_option("--change", steadiness.change, "change in a unit of time that is steady");
   };
   const auto add_cavity = [&](CLI::App* flow, const char* name) {
@@ -67,10 +69,13 @@ int run(int argc, char** argv) {
   add_cavity(heated, "--rayleigh");
   CLI::App* cylinder = app.add_subcommand("cylinder", "cylinder in a free stream");
   cylinder->add_option("--reynolds", number)->required();
-  cylinder->add_option("--radial", around.radial, "cells outwards");
   cylinder->add_option("--tangential", around.tangential, "cells around");
   cylinder->add_option("--outer-radius", around.outer_radius, "in diameters");
   cylinder->add_option("--first", around.first, "width of the cells at the cylinder, diameters");
+  cylinder->add_option("--growth", around.growth, "of the cells outwards");
+  cylinder->add_option("--wake", around.wake, "radius up to which no cell grows beyond --widest");
+  cylinder->add_option("--widest", around.widest, "width of cells outwards, in diameters");
+  cylinder->add_option("--gather", around.gather, "how much narrower cells behind are, 0 to 1");
   cylinder->add_option("--outlet-angle", around.outlet_angle, "degrees either side of the stream");
   cylinder->add_option("--history", history, "file for the coefficients of all steps (CSV)");
   const auto* sheds =
@@ -78,6 +83,8 @@ int run(int argc, char** argv) {
   cylinder->add_option("--periods", periods, "of shedding that the means are of");
   add_steadiness(cylinder);
   CLI11_PARSE(app, argc, argv);
+  if (implicit)
+    steadiness.time_scheme = granflux::cfd::TimeScheme::implicit;
 
   if (*lid) {
     const LidCavity f = lid_cavity(number, cavity, steadiness);

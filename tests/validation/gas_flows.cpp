@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
-#include <optional>
+#include <utility>
 
 #include <granflux/cfd/case_mesh.hpp>
 #include <granflux/cfd/error.hpp>
@@ -21,8 +22,9 @@ constexpr std::size_t u(int i) {
 }
 
 /// Numerics of all these runs: second order, and steps that the Courant number sets.
-Numerics numerics_of_a_run() {
+Numerics numerics_of_a_run(TimeScheme time_scheme) {
   Numerics n;
+  n.time_scheme = time_scheme;
   n.convection = ConvectionScheme::central;
   n.pressure_tolerance = 1e-6; // of each step's increment, which fades as the flow becomes steady
   n.viscous_tolerance = 1e-8;
@@ -60,26 +62,39 @@ double largest(const BlockVectors& a, const BlockVectors* less, const Layout& la
   return most;
 }
 
-/// Unit of time `unit`: a turnover. Throws NumericalError where the flow does not become steady.
+/// Runs until what `changed` gives at the end of a time `interval`, by how much the flow is another
+/// than at its start, is `steadiness.change` in a unit of time. Throws NumericalError where it
+/// never is.
 void settle(
-    GasSolver& gas, const Steadiness& steadiness, double unit, double first_step,
-    const std::function<void()>& each_step = [] {}) {
+    GasSolver& gas, const Steadiness& steadiness, double unit, double interval, double first_step,
+    const std::function<double()>& changed, const std::function<void()>& each_step = [] {}) {
   Clock clock(gas, steadiness.courant, first_step);
-  const Layout& layout = gas.mesh().local[0].layout;
   double change = 1;
   while (change > steadiness.change) {
-    const BlockVectors before = gas.velocity();
     const double start = gas.time();
     if (start > steadiness.most_time * unit)
       throw NumericalError("flow not steady after " + std::to_string(steadiness.most_time) +
-                           " units of time: velocity still changes by " + std::to_string(change));
-    while (gas.time() < start + unit) {
+                           " units of time: still changes by " + std::to_string(change));
+    while (gas.time() < start + interval) {
       clock.step();
       each_step();
     }
-    change = largest(gas.velocity(), &before, layout) * unit / (gas.time() - start) /
-             largest(gas.velocity(), nullptr, layout);
+    change = changed() * unit / (gas.time() - start);
   }
+}
+
+/// Until no velocity component changes by more than `steadiness.change` of the largest one in the
+/// time `unit`.
+void settle_everywhere(GasSolver& gas, const Steadiness& steadiness, double unit,
+                       double first_step) {
+  const Layout& layout = gas.mesh().local[0].layout;
+  BlockVectors before = gas.velocity();
+  settle(gas, steadiness, unit, unit, first_step, [&] {
+    const double change =
+        largest(gas.velocity(), &before, layout) / largest(gas.velocity(), nullptr, layout);
+    before = gas.velocity();
+    return change;
+  });
 }
 
 std::vector<double> cavity_nodes(const CavityGrid& grid) {
@@ -93,7 +108,7 @@ std::vector<double> cavity_nodes(const CavityGrid& grid) {
 }
 
 /// Cavity in the plane of x and z, its walls named x_low and so on.
-GasCase cavity(const CavityGrid& grid) {
+GasCase cavity(const CavityGrid& grid, TimeScheme time_scheme) {
   GasCase c;
   BoxGrid& box = box_grid(c);
   box.nodes[0] = box.nodes[2] = cavity_nodes(grid);
@@ -108,7 +123,7 @@ GasCase cavity(const CavityGrid& grid) {
       c.boundaries.push_back(wall);
     }
   c.fluid.density = 1;
-  c.numerics = numerics_of_a_run();
+  c.numerics = numerics_of_a_run(time_scheme);
   return c;
 }
 
@@ -127,19 +142,13 @@ std::vector<double> centres(const std::vector<double>& nodes) {
   return x;
 }
 
-/// Fields of a coarser run of the same cavity, brought to this grid linearly.
-template <class Value>
-void bring(const Layout& to, const std::vector<double>& fine, const Layout& from,
-           const std::vector<double>& coarse, Value&& value) {
-  for (int k = 0; k < to.cells[2]; ++k)
-    for (int i = 0; i < to.cells[0]; ++i) {
-      const auto [ci, s] = between(coarse, fine[u(i)]);
-      const auto [ck, t] = between(coarse, fine[u(k)]);
-      value(to.at(i, 0, k), [&, ci = ci, ck = ck, s = s, t = t](const Field& q) {
-        return (1 - s) * (1 - t) * q[from.at(ci, 0, ck)] + s * (1 - t) * q[from.at(ci + 1, 0, ck)] +
-               (1 - s) * t * q[from.at(ci, 0, ck + 1)] + s * t * q[from.at(ci + 1, 0, ck + 1)];
-      });
-    }
+/// For each of the fine positions, where it lies between the coarse ones.
+std::vector<std::pair<int, double>> places(const std::vector<double>& fine,
+                                           const std::vector<double>& coarse) {
+  std::vector<std::pair<int, double>> out;
+  for (const double x : fine)
+    out.push_back(between(coarse, x));
+  return out;
 }
 
 /// A mesh and its solver that stay where they are.
@@ -154,32 +163,55 @@ struct Run {
   GasSolver gas;
 };
 
+/// Velocity, and temperature where there is one, of a coarser run of the same flow, brought to this
+/// grid linearly: `along` are the places of the cells among the coarse ones, `d` its directions.
+void begin_with(Run& run, const Run& coarse, std::array<int, 2> d,
+                const std::array<std::vector<std::pair<int, double>>, 2>& along) {
+  const Layout &to = run.block().layout, &from = coarse.block().layout;
+  const auto cell = [&](const Layout& layout, int a, int b) {
+    Index3 c{0, 0, 0};
+    c[u(d[0])] = a, c[u(d[1])] = b;
+    return layout.at(c[0], c[1], c[2]);
+  };
+  BlockVectors velocity = make_vectors(run.mesh);
+  BlockFields temperature = make_fields(run.mesh);
+  for (int b = 0; b < int(along[1].size()); ++b)
+    for (int a = 0; a < int(along[0].size()); ++a) {
+      const auto [ca, s] = along[0][u(a)];
+      const auto [cb, t] = along[1][u(b)];
+      const auto value = [&, ca = ca, cb = cb, s = s, t = t](const Field& q) {
+        return (1 - s) * ((1 - t) * q[cell(from, ca, cb)] + t * q[cell(from, ca, cb + 1)]) +
+               s * ((1 - t) * q[cell(from, ca + 1, cb)] + t * q[cell(from, ca + 1, cb + 1)]);
+      };
+      const std::ptrdiff_t c = cell(to, a, b);
+      for (std::size_t m = 0; m < 3; ++m)
+        velocity[0][m][c] = value(coarse.gas.velocity()[0][m]);
+      if (run.gas.temperature())
+        temperature[0][c] = value((*coarse.gas.temperature())[0]);
+    }
+  run.gas.initialise(make_fields(run.mesh, 1), velocity);
+  if (run.gas.temperature())
+    run.gas.set_temperature(temperature);
+}
+
+/// What a coarser run need reach: its own error is far larger.
+Steadiness rough(Steadiness steadiness) {
+  steadiness.change *= 10;
+  return steadiness;
+}
+
 /// Steady flow in a cavity; begins with the steady flow on every second grid line.
 std::unique_ptr<Run> settled_cavity(const std::function<GasCase(const CavityGrid&)>& make,
                                     const CavityGrid& grid, const Steadiness& steadiness,
                                     double unit, double speed) {
   auto run = std::make_unique<Run>(make(grid));
-  GasSolver& gas = run->gas;
   if (grid.cells >= 48 && grid.cells % 2 == 0) {
     const CavityGrid coarse_grid{grid.cells / 2, grid.stretching};
-    Steadiness rough = steadiness;
-    rough.change *= 10; // its own error is far larger
-    const auto coarse = settled_cavity(make, coarse_grid, rough, unit, speed);
-    const std::vector<double> x = centres(cavity_nodes(coarse_grid));
-    BlockVectors velocity = make_vectors(run->mesh);
-    BlockFields temperature = make_fields(run->mesh);
-    bring(run->block().layout, centres(cavity_nodes(grid)), coarse->block().layout, x,
-          [&](std::ptrdiff_t c, auto&& value) {
-            for (std::size_t m = 0; m < 3; ++m)
-              velocity[0][m][c] = value(coarse->gas.velocity()[0][m]);
-            if (gas.temperature())
-              temperature[0][c] = value((*coarse->gas.temperature())[0]);
-          });
-    gas.initialise(make_fields(run->mesh, 1), velocity);
-    if (gas.temperature())
-      gas.set_temperature(temperature);
+    const auto coarse = settled_cavity(make, coarse_grid, rough(steadiness), unit, speed);
+    const auto along = places(centres(cavity_nodes(grid)), centres(cavity_nodes(coarse_grid)));
+    begin_with(*run, *coarse, {0, 2}, {along, along});
   }
-  settle(gas, steadiness, unit, 0.1 * steadiness.courant / (grid.cells * speed));
+  settle_everywhere(run->gas, steadiness, unit, 0.1 * steadiness.courant / (grid.cells * speed));
   return run;
 }
 
@@ -236,7 +268,7 @@ double at(const std::vector<Sample>& line, double coordinate) {
 LidCavity lid_cavity(double reynolds, const CavityGrid& grid, const Steadiness& steadiness,
                      double viscosity_factor) {
   const auto make = [&](const CavityGrid& g) {
-    GasCase c = cavity(g);
+    GasCase c = cavity(g, steadiness.time_scheme);
     c.fluid.viscosity = viscosity_factor / reynolds;
     c.boundaries.back().velocity = {1, 0, 0}; // z_high
     return c;
@@ -251,7 +283,7 @@ HeatedCavity heated_cavity(double rayleigh, const CavityGrid& grid, const Steadi
   constexpr double prandtl = 0.71;
   using Heat = BoundaryCondition::Heat;
   const auto make = [&](const CavityGrid& g) {
-    GasCase c = cavity(g);
+    GasCase c = cavity(g, steadiness.time_scheme);
     c.fluid.viscosity = prandtl;
     c.fluid.gravity = {0, 0, -1};
     c.energy = Energy{.heat_capacity = 1,
@@ -304,13 +336,48 @@ double growth_of(double first, double across, int n) {
   return low;
 }
 
-GasCase cylinder(double reynolds, const CylinderGrid2D& grid) {
+/// Radii of the nodes: cells grow from the first, not beyond the widest as far as the wake reaches,
+/// then again so that the last node is the outer radius.
+std::vector<double> cylinder_radii(const CylinderGrid2D& grid) {
+  std::vector<double> r{0.5};
+  double width = grid.first;
+  while (r.back() < grid.wake) {
+    r.push_back(r.back() + width);
+    width = std::min(width * grid.growth, std::max(grid.widest, grid.first));
+  }
+  const double left = grid.outer_radius - r.back();
+  const int cells =
+      int(std::ceil(std::log1p(left * (grid.growth - 1) / width) / std::log(grid.growth)));
+  const double growth = growth_of(width, left, cells);
+  for (int i = 0; i < cells; ++i, width *= growth)
+    r.push_back(r.back() + width);
+  r.back() = grid.outer_radius;
+  return r;
+}
+
+/// Angles of the nodes, degrees, from the wake's axis around.
+std::vector<double> cylinder_angles(const CylinderGrid2D& grid) {
+  std::vector<double> angles;
+  for (int j = 0; j <= grid.tangential; ++j) {
+    const double s = double(j) / grid.tangential, turn = 2 * std::numbers::pi;
+    angles.push_back(360 * (s - grid.gather * std::sin(turn * s) / turn));
+  }
+  angles.back() = 360;
+  return angles;
+}
+
+CylinderGrid2D half(CylinderGrid2D grid) {
+  grid.tangential /= 2, grid.first *= 2, grid.widest *= 2, grid.growth *= grid.growth;
+  return grid;
+}
+
+GasCase cylinder(double reynolds, const CylinderGrid2D& grid, TimeScheme time_scheme) {
   GasCase c;
   AnnulusGrid annulus;
-  annulus.inner_radius = 0.5, annulus.outer_radius = grid.outer_radius, annulus.length = depth;
-  annulus.radial = grid.radial, annulus.tangential = grid.tangential, annulus.axial = 1;
-  annulus.growth = growth_of(grid.first, grid.outer_radius - 0.5, grid.radial);
-  annulus.periodic_axis = true;
+  annulus.radii = cylinder_radii(grid), annulus.angles = cylinder_angles(grid);
+  annulus.length = depth;
+  annulus.radial = int(annulus.radii.size()) - 1, annulus.tangential = grid.tangential;
+  annulus.axial = 1, annulus.periodic_axis = true;
   annulus.arcs = {{"stream", grid.outlet_angle, 360 - grid.outlet_angle},
                   {"wake", -grid.outlet_angle, grid.outlet_angle}};
   c.grid = annulus;
@@ -327,7 +394,7 @@ GasCase cylinder(double reynolds, const CylinderGrid2D& grid) {
   condition.kind = BoundaryKind::outlet;
   c.boundaries.push_back(condition);
   c.initial_velocity = {1, 0, 0};
-  c.numerics = numerics_of_a_run();
+  c.numerics = numerics_of_a_run(time_scheme);
   return c;
 }
 
@@ -342,17 +409,23 @@ double wake_length(const Run& run) {
   const Layout& layout = block.layout;
   const Field& q = run.gas.velocity()[0][0];
   const int rays = layout.cells[1];
+  const auto square_of_angle = [&](std::ptrdiff_t c) {
+    const double angle = std::atan2(block.centre[1][c], block.centre[0][c]);
+    return angle * angle;
+  };
   std::vector<Sample> axis{{0.5, 0}};
   for (int i = 0; i < layout.cells[0]; ++i) { // the axis lies between the first and the last ray
-    const std::ptrdiff_t c = layout.at(i, 0, 0);
+    const std::ptrdiff_t c = layout.at(i, 0, 0), beyond = layout.at(i, 1, 0);
     const double near = 0.5 * (q[c] + q[layout.at(i, rays - 1, 0)]);
-    const double far = 0.5 * (q[layout.at(i, 1, 0)] + q[layout.at(i, rays - 2, 0)]);
+    const double far = 0.5 * (q[beyond] + q[layout.at(i, rays - 2, 0)]);
     // The wake is narrow: on an arc the velocity is a parabola of the angle.
-    axis.push_back({std::hypot(block.centre[0][c], block.centre[1][c]), (9 * near - far) / 8});
+    const double a = square_of_angle(c), b = square_of_angle(beyond);
+    axis.push_back(
+        {std::hypot(block.centre[0][c], block.centre[1][c]), (b * near - a * far) / (b - a)});
   }
-  for (std::size_t i = 1; i + 1 < axis.size(); ++i)
-    if (axis[i].value < 0 && axis[i + 1].value >= 0) {
-      double low = axis[i].coordinate, high = axis[i + 1].coordinate;
+  for (std::size_t i = axis.size() - 1; i > 1; --i) // the stream comes back once and for all
+    if (axis[i - 1].value < 0 && axis[i].value >= 0) {
+      double low = axis[i - 1].coordinate, high = axis[i].coordinate;
       for (int n = 0; n < 60; ++n) {
         const double middle = 0.5 * (low + high);
         (at(axis, middle) < 0 ? low : high) = middle;
@@ -372,27 +445,58 @@ double pressure_drag(const Run& run) {
   return sum / (0.5 * depth);
 }
 
+std::unique_ptr<Run> settled_cylinder(
+    double reynolds, const CylinderGrid2D& grid, const Steadiness& steadiness, int coarser,
+    const std::function<void(const Run&)>& each_step = [](const Run&) {}) {
+  auto run = std::make_unique<Run>(cylinder(reynolds, grid, steadiness.time_scheme));
+  if (coarser > 0 && grid.tangential % 2 == 0) {
+    const CylinderGrid2D coarse_grid = half(grid);
+    const auto coarse = settled_cylinder(reynolds, coarse_grid, rough(steadiness), coarser - 1);
+    std::vector<double> around = centres(cylinder_angles(coarse_grid));
+    around.insert(around.begin(), around.back() - 360); // the circle closes
+    around.push_back(around[1] + 360);
+    auto angles = places(centres(cylinder_angles(grid)), around);
+    for (auto& [ray, share] : angles)
+      --ray;
+    begin_with(
+        *run, *coarse, {0, 1},
+        {places(centres(cylinder_radii(grid)), centres(cylinder_radii(coarse_grid))), angles});
+  }
+  // Far out, where nothing is measured, cells are too wide to damp the waves of the start. They
+  // pass over the cylinder now and then: a long interval.
+  constexpr double interval = 10;
+  double drag = 0, wake = 0;
+  const auto changed = [&] {
+    const double old_drag = std::exchange(drag, force_sample(run->gas).drag);
+    const double old_wake = std::exchange(wake, wake_length(*run));
+    const double change = std::max(std::abs(drag / old_drag - 1), std::abs(wake / old_wake - 1));
+    return std::isfinite(change) ? change : 1; // no wake yet
+  };
+  settle(run->gas, steadiness, 1, interval, 0.1 * grid.first, changed, [&] { each_step(*run); });
+  return run;
+}
+
 } // namespace
 
 CylinderFlow steady_cylinder(double reynolds, const CylinderGrid2D& grid,
                              const Steadiness& steadiness) {
-  const GasCase c = cylinder(reynolds, grid);
-  Run run(c);
   CylinderFlow flow;
-  settle(run.gas, steadiness, 1, 0.1 * grid.first,
-         [&] { flow.history.push_back(force_sample(run.gas)); });
+  constexpr int coarser = 2;
+  const auto run = settled_cylinder(reynolds, grid, steadiness, coarser, [&](const Run& r) {
+    flow.history.push_back(force_sample(r.gas));
+  });
   flow.drag = flow.history.back().drag;
-  flow.pressure_drag = pressure_drag(run);
-  flow.wake_length = wake_length(run);
-  flow.growth = std::get<AnnulusGrid>(c.grid).growth;
-  flow.time = run.gas.time();
-  flow.steps = run.gas.steps();
+  flow.pressure_drag = pressure_drag(*run);
+  flow.wake_length = wake_length(*run);
+  flow.radial = run->block().layout.cells[0];
+  flow.time = run->gas.time();
+  flow.steps = run->gas.steps();
   return flow;
 }
 
 CylinderFlow shedding_cylinder(double reynolds, const CylinderGrid2D& grid, double courant,
                                double end_time, int periods) {
-  GasCase c = cylinder(reynolds, grid);
+  GasCase c = cylinder(reynolds, grid, TimeScheme::semi_implicit);
   c.initial_velocity = {1, 0.3, 0}; // begins to shed at once
   Run run(c);
   CylinderFlow flow;
@@ -402,7 +506,7 @@ CylinderFlow shedding_cylinder(double reynolds, const CylinderGrid2D& grid, doub
     flow.history.push_back(force_sample(run.gas));
   }
   flow.pressure_drag = pressure_drag(run);
-  flow.growth = std::get<AnnulusGrid>(c.grid).growth;
+  flow.radial = run.block().layout.cells[0];
   flow.time = run.gas.time();
   flow.steps = run.gas.steps();
 

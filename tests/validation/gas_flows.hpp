@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <granflux/cfd/gas_case.hpp>
+
 /// Flows of the gas alone with published solutions, and what is measured on them. All are planes of
 /// one cell's depth, made dimensionless, on one rank.
 namespace granflux::cfd::validation {
@@ -17,6 +19,7 @@ struct CavityGrid {
 
 /// How long a run that is to become steady goes on.
 struct Steadiness {
+  TimeScheme time_scheme = TimeScheme::semi_implicit;
   double courant = 0.6;
   /// Largest change of a velocity component in a unit of time, over the largest speed.
   double change = 1e-5;
@@ -55,11 +58,15 @@ struct HeatedCavity {
 HeatedCavity heated_cavity(double rayleigh, const CavityGrid& grid, const Steadiness& steadiness,
                            double buoyancy_factor = 1);
 
-/// Cylinder of diameter 1 in a stream of speed 1 along x.
+/// Ring of cells around a cylinder of diameter 1, in a stream of speed 1 along x.
 struct CylinderGrid2D {
-  int radial = 64, tangential = 96;
+  int tangential = 96;
   double outer_radius = 25;
-  double first = 0.02;      ///< width of the cells at the cylinder
+  double first = 0.02;  ///< width of the cells at the cylinder
+  double growth = 1.07; ///< of the cells outwards
+  double wake = 0.5;    ///< radius up to which cells do not grow beyond `widest`
+  double widest = 0.05;
+  double gather = 0;        ///< share by which cells on the wake's axis are narrower than the mean
   double outlet_angle = 60; ///< degrees either side of x where the gas leaves
 };
 
@@ -74,13 +81,14 @@ struct CylinderFlow {
   double wake_length = 0;   ///< from the rear of the cylinder, in radii; 0: none
   double lift = 0;          ///< amplitude; 0 where nothing sheds
   double strouhal = 0;
-  int periods = 0;   ///< that the means are of
-  double growth = 0; ///< of the cells outwards
+  int periods = 0; ///< that the means are of
+  int radial = 0;  ///< cells outwards
   double time = 0;
   long steps = 0;
 };
 
-/// Until steady; `history` has every step.
+/// Until steady, from the steady flow on cells of twice the size (twice over); `history` has
+/// every step on the grid itself.
 CylinderFlow steady_cylinder(double reynolds, const CylinderGrid2D& grid,
                              const Steadiness& steadiness);
 /// A wake that sheds, until `end_time`; means over its last `periods` periods.

@@ -78,4 +78,19 @@ TEST(GasFlows, HeatedCavityAtRayleigh1e4) {
   EXPECT_GT(heated_cavity(1e4, grid, {.change = 1e-4}, 1.05).nusselt, 1.01 * nusselt);
 }
 
+TEST(GasFlows, CylinderAtReynolds20) {
+  const auto flow = [](double reynolds) {
+    const CylinderGrid2D grid{
+        .tangential = 48, .first = 0.06, .growth = 1.188, .wake = 2, .widest = 0.16, .gather = 0.7};
+    return steady_cylinder(
+        reynolds, grid,
+        {.time_scheme = granflux::cfd::TimeScheme::implicit, .courant = 5, .change = 1e-4});
+  };
+  const CylinderFlow f = flow(20);
+  constexpr double drag = 2.091, wake = 1.86; // published
+  EXPECT_NEAR(f.drag, drag, 0.02 * drag);
+  EXPECT_NEAR(f.wake_length, wake, 0.03 * wake);
+  EXPECT_GT(flow(21).wake_length, 1.04 * wake); // as with 5 % of viscosity too little
+}
+
 } // namespace
