@@ -12,11 +12,13 @@
 #include <stdexcept>
 #include <variant>
 
+#include <granflux/cfd/case_mesh.hpp>
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/sweep.hpp>
 #include <granflux/coupling/drag/laws.hpp>
 #include <granflux/coupling/fluid_kick.hpp>
 #include <granflux/coupling/ledger.hpp>
+#include <granflux/coupling/locate.hpp>
 #include <granflux/coupling/nusselt/laws.hpp>
 #include <granflux/coupling/smoothing.hpp>
 #include <granflux/coupling/throw_together.hpp>
@@ -102,8 +104,8 @@ std::string text(double x) {
 
 struct Coupler::Impl {
   Impl(const cfd::GasCase& c, const CouplingOptions& o, MPI_Comm comm)
-      : gas_case(c), options(o), mesh(cfd::make_box_mesh(cfd::box_grid(c), comm)), halo(mesh),
-        gas(mesh, c), lattice(*mesh.lattice),
+      : gas_case(c), options(o), mesh(cfd::make_mesh(c, comm)), halo(mesh), gas(mesh, c),
+        locator(make_locator(mesh)),
         kernel(VoidFractionKernels::make("void_fraction", o.void_fraction)),
         drag(DragLaws::make("drag", o.drag)), nusselt(NusseltLaws::make("nusselt", o.nusselt)),
         exchange(mesh), ledger(comm), momentum(cfd::make_exchange(mesh)),
@@ -111,6 +113,15 @@ struct Coupler::Impl {
     if (!(o.void_fraction_floor > 0 && o.void_fraction_floor < 1))
       throw ConfigError("coupling: void_fraction_floor = " + text(o.void_fraction_floor) +
                         " must lie between 0 and 1");
+    const bool serves_grid = std::visit(
+        [](const auto& k, const auto& l) {
+          return serves<std::remove_cvref_t<decltype(k)>, std::remove_cvref_t<decltype(l)>>;
+        },
+        kernel, locator);
+    if (!serves_grid)
+      throw ConfigError("coupling: void_fraction = \"" + o.void_fraction +
+                        "\" needs a box grid; for grids fitted to a body there are centre, "
+                        "divided and smoothed");
     if (!(o.smoothing_width >= 0 && std::isfinite(o.smoothing_width)))
       throw ConfigError("coupling: smoothing_width = " + text(o.smoothing_width) +
                         " must be a number of particle diameters, 0 or more");
@@ -150,7 +161,7 @@ struct Coupler::Impl {
   cfd::Mesh mesh;
   cfd::Halo halo;
   cfd::GasSolver gas;
-  LatticeLocator lattice;
+  AnyLocator locator;
   AnyKernel kernel;
   AnyDragLaw drag;
   AnyNusseltLaw nusselt;
@@ -179,7 +190,7 @@ struct Coupler::Impl {
 
 void Coupler::Impl::locate(const ParticleView& view) {
   const Stopwatch watch(times.locate);
-  weights.build(kernel, lattice, view.position, view.radius, view.coupled);
+  weights.build(kernel, locator, view.position, view.radius, view.coupled);
   exchange.bind(weights.window());
   choose_smoothing(view);
 }
@@ -502,12 +513,10 @@ void Coupler::initialise(const ParticleView& view, double time) {
   for (std::size_t p = 0; p < view.size() && s.weights.outside_count() > 0; ++p) {
     if (s.weights.placed(p) || (!view.coupled.empty() && !view.coupled[p]))
       continue;
-    const cfd::Lattice& grid = *s.mesh.lattice;
-    const Vec3 low{grid.nodes[0].front(), grid.nodes[1].front(), grid.nodes[2].front()};
-    const Vec3 high{grid.nodes[0].back(), grid.nodes[1].back(), grid.nodes[2].back()};
+    const auto& [low, high, periodic] = extent();
     complaint = "coupling: particle " + (view.id.empty() ? "" : std::to_string(view.id[p]) + " ") +
                 "at " + text(view.position[p]) +
-                " m lies outside the gas grid, which extends from " + text(low) + " to " +
+                " m lies outside the gas grid, whose extent is from " + text(low) + " to " +
                 text(high) + " m";
     break;
   }
@@ -586,6 +595,10 @@ const CouplingTimes& Coupler::times() const {
 }
 cfd::GasSolver& Coupler::gas() {
   return impl_->gas;
+}
+const GridExtent& Coupler::extent() const {
+  return std::visit([](const auto& locator) -> const GridExtent& { return locator.extent(); },
+                    impl_->locator);
 }
 const cfd::Mesh& Coupler::mesh() const {
   return impl_->mesh;

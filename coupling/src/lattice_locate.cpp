@@ -19,8 +19,12 @@ LatticeAxis::LatticeAxis(const std::vector<double>& nodes, bool periodic)
 }
 
 LatticeLocator::LatticeLocator(const cfd::Lattice& lattice) {
-  for (std::size_t d = 0; d < 3; ++d)
+  for (std::size_t d = 0; d < 3; ++d) {
     axes_[d] = LatticeAxis(lattice.nodes[d], lattice.periodic[d]);
+    extent_.low[int(d)] = lattice.nodes[d].front();
+    extent_.high[int(d)] = lattice.nodes[d].back();
+  }
+  extent_.periodic = lattice.periodic;
 }
 
 } // namespace granflux::coupling

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <omp.h>
+#include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -29,7 +31,40 @@ void include(Window& window, const cfd::Index3& lo, const cfd::Index3& hi) {
 
 } // namespace
 
-void Weights::build(const AnyKernel& any_kernel, const LatticeLocator& lattice,
+/// Shares of all particles, each thread's in its own run.
+template <class Kernel, class Locator>
+void Weights::find_shares(const Kernel& kernel, const Locator& locator,
+                          std::span<const Vec3> position, std::span<const double> radius,
+                          std::span<const std::uint8_t> coupled) {
+  const std::size_t count = position.size();
+#pragma omp parallel
+  {
+    const int t = omp_get_thread_num(), n = omp_get_num_threads();
+    Run& run = runs_[std::size_t(t)];
+    const std::size_t end = run_begin(count, t + 1, n);
+    for (std::size_t p = run_begin(count, t, n); p < end; ++p) {
+      if (!coupled.empty() && coupled[p] == 0)
+        continue;
+      const Vec3 centre = locator.fold(position[p]);
+      const auto cell = locator.cell(centre);
+      if (!cell) {
+        ++run.outside;
+        continue;
+      }
+      ++run.placed;
+      const std::size_t before = run.entries.size();
+      kernel(locator, ParticlePlace{centre, radius[p], *cell},
+             [&](const cfd::Index3& c, double share) {
+               if (!run.window.contains(c)) [[unlikely]]
+                 include(run.window, c, {c[0] + 1, c[1] + 1, c[2] + 1});
+               run.entries.push_back({c, share});
+             });
+      offset_[p + 1] = run.entries.size() - before;
+    }
+  }
+}
+
+void Weights::build(const AnyKernel& any_kernel, const AnyLocator& any_locator,
                     std::span<const Vec3> position, std::span<const double> radius,
                     std::span<const std::uint8_t> coupled) {
   const std::size_t count = position.size();
@@ -42,34 +77,13 @@ void Weights::build(const AnyKernel& any_kernel, const LatticeLocator& lattice,
   }
 
   std::visit(
-      [&](const auto kernel) {
-#pragma omp parallel
-        {
-          const int t = omp_get_thread_num(), n = omp_get_num_threads();
-          Run& run = runs_[std::size_t(t)];
-          const std::size_t end = run_begin(count, t + 1, n);
-          for (std::size_t p = run_begin(count, t, n); p < end; ++p) {
-            if (!coupled.empty() && coupled[p] == 0)
-              continue;
-            const Vec3 centre = lattice.fold(position[p]);
-            const auto cell = lattice.cell(centre);
-            if (!cell) {
-              ++run.outside;
-              continue;
-            }
-            ++run.placed;
-            const std::size_t before = run.entries.size();
-            kernel(lattice, ParticlePlace{centre, radius[p], *cell},
-                   [&](const cfd::Index3& c, double share) {
-                     if (!run.window.contains(c)) [[unlikely]]
-                       include(run.window, c, {c[0] + 1, c[1] + 1, c[2] + 1});
-                     run.entries.push_back({c, share});
-                   });
-            offset_[p + 1] = run.entries.size() - before;
-          }
-        }
+      [&](const auto kernel, const auto& locator) {
+        if constexpr (serves<decltype(kernel), std::remove_cvref_t<decltype(locator)>>)
+          find_shares(kernel, locator, position, radius, coupled);
+        else
+          throw std::logic_error("a kernel for lattices was given another grid");
       },
-      any_kernel);
+      any_kernel, any_locator);
 
   for (std::size_t p = 0; p < count; ++p)
     offset_[p + 1] += offset_[p];

@@ -42,7 +42,7 @@ std::size_t cells_of(const Index3& n) {
 } // namespace
 
 WindowExchange::WindowExchange(const cfd::Mesh& mesh)
-    : mesh_(mesh), local_(mesh.blocks.size(), -1) {
+    : mesh_(mesh), stack_(mesh.blocks), local_(mesh.blocks.size(), -1) {
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     local_[std::size_t(mesh.local[b].id)] = int(b);
 }
@@ -52,12 +52,13 @@ Window WindowExchange::frame_around(const Window& window) const {
   if (window.size() == 0)
     return {};
   Window frame = window;
+  const Index3 cells = mesh_.lattice ? mesh_.lattice->cells() : stack_.extent();
   for (std::size_t d = 0; d < 3; ++d) {
     frame.lo[d] -= slack;
     frame.hi[d] += slack;
-    if (!mesh_.lattice->periodic[d]) {
+    if (!mesh_.lattice || !mesh_.lattice->periodic[d]) {
       frame.lo[d] = std::max(frame.lo[d], 0);
-      frame.hi[d] = std::min(frame.hi[d], mesh_.lattice->cells()[d]);
+      frame.hi[d] = std::min(frame.hi[d], cells[d]);
     }
   }
   return frame;
@@ -80,24 +81,45 @@ void WindowExchange::bind(const Window& window) {
   users_ = find_users();
 }
 
-std::vector<WindowExchange::Partner> WindowExchange::find_owners() const {
+/// Parts of the frame over the blocks of a lattice, through every periodic image.
+std::vector<WindowExchange::Overlap> WindowExchange::overlaps_of_lattice() const {
   const cfd::Lattice& lattice = *mesh_.lattice;
-  std::map<int, Partner> owners;
-  if (frame_.size() > 0) {
-    std::array<std::vector<Run>, 3> runs;
-    for (std::size_t d = 0; d < 3; ++d)
-      runs[d] = split(lattice, d, frame_.lo[d], frame_.extent()[d]);
-    for (const Run& k : runs[2])
-      for (const Run& j : runs[1])
-        for (const Run& i : runs[0]) {
-          const int block = lattice.block({i.slab, j.slab, k.slab});
-          Partner& owner = owners[mesh_.blocks[std::size_t(block)].rank];
-          owner.overlaps.push_back({block,
-                                    {i.frame, j.frame, k.frame},
-                                    {i.cell, j.cell, k.cell},
-                                    {i.count, j.count, k.count}});
-        }
+  std::array<std::vector<Run>, 3> runs;
+  for (std::size_t d = 0; d < 3; ++d)
+    runs[d] = split(lattice, d, frame_.lo[d], frame_.extent()[d]);
+  std::vector<Overlap> overlaps;
+  for (const Run& k : runs[2])
+    for (const Run& j : runs[1])
+      for (const Run& i : runs[0])
+        overlaps.push_back({lattice.block({i.slab, j.slab, k.slab}),
+                            {i.frame, j.frame, k.frame},
+                            {i.cell, j.cell, k.cell},
+                            {i.count, j.count, k.count}});
+  return overlaps;
+}
+
+std::vector<WindowExchange::Overlap> WindowExchange::overlaps_of_stack() const {
+  std::vector<Overlap> overlaps;
+  for (int block = 0; block < int(mesh_.blocks.size()); ++block) {
+    const Index3& n = mesh_.blocks[std::size_t(block)].cells;
+    const int first = stack_.first(block);
+    const cfd::IndexBox both =
+        cfd::intersection({frame_.lo, frame_.hi}, {{0, 0, first}, {n[0], n[1], first + n[2]}});
+    if (!both.empty())
+      overlaps.push_back(
+          {block,
+           both.lo,
+           {both.lo[0], both.lo[1], both.lo[2] - first},
+           {both.hi[0] - both.lo[0], both.hi[1] - both.lo[1], both.hi[2] - both.lo[2]}});
   }
+  return overlaps;
+}
+
+std::vector<WindowExchange::Partner> WindowExchange::find_owners() const {
+  std::map<int, Partner> owners;
+  if (frame_.size() > 0)
+    for (const Overlap& overlap : mesh_.lattice ? overlaps_of_lattice() : overlaps_of_stack())
+      owners[mesh_.blocks[std::size_t(overlap.block)].rank].overlaps.push_back(overlap);
   std::vector<Partner> list;
   for (auto& [rank, owner] : owners) {
     owner.rank = rank;

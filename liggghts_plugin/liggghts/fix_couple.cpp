@@ -165,14 +165,24 @@ void FixCouple::init() {
 /// What the run is made of, so that a wrong unit shows before it starts.
 std::string FixCouple::summary() const {
   const cfd::Fluid& fluid = gas_case_.fluid;
-  const cfd::Index3 cells = coupler_->mesh().lattice->cells();
-  std::string text = fmt::format("granflux: gas of {:g} kg/m3 and {:g} Pa s on {} x {} x {} cells; "
-                                 "gravity {:g} {:g} {:g} m/s2; "
-                                 "drag {}, void fraction {}, model {}\n",
-                                 fluid.density, fluid.viscosity, cells[0], cells[1], cells[2],
-                                 fluid.gravity.x, fluid.gravity.y, fluid.gravity.z,
-                                 coupling_options_.drag, coupling_options_.void_fraction,
-                                 coupling_options_.model == coupling::MomentumModel::a ? "a" : "b");
+  const cfd::Mesh& mesh = coupler_->mesh();
+  std::string cells;
+  if (mesh.lattice) {
+    const cfd::Index3 n = mesh.lattice->cells();
+    cells = fmt::format("{} x {} x {} cells", n[0], n[1], n[2]);
+  } else {
+    long count = 0;
+    for (const cfd::BlockInfo& block : mesh.blocks)
+      count += long(block.cells[0]) * block.cells[1] * block.cells[2];
+    cells = fmt::format("{} cells in {} blocks", count, mesh.blocks.size());
+  }
+  std::string text =
+      fmt::format("granflux: gas of {:g} kg/m3 and {:g} Pa s on {}; "
+                  "gravity {:g} {:g} {:g} m/s2; "
+                  "drag {}, void fraction {}, model {}\n",
+                  fluid.density, fluid.viscosity, cells, fluid.gravity.x, fluid.gravity.y,
+                  fluid.gravity.z, coupling_options_.drag, coupling_options_.void_fraction,
+                  coupling_options_.model == coupling::MomentumModel::a ? "a" : "b");
   for (const cfd::BoundaryCondition& boundary : gas_case_.boundaries)
     if (boundary.kind == cfd::BoundaryKind::inlet)
       text += fmt::format("granflux: inlet {}: {:g} {:g} {:g} m/s\n", boundary.name,
@@ -191,12 +201,13 @@ std::unique_ptr<coupling::Coupler> FixCouple::make_coupler() const {
 
 /// Before the first run: the gas at its initial or restored state, the particles where they are.
 void FixCouple::begin() {
-  if (!options_.any_box)
-    check_box(*lmp, cfd::box_grid(gas_case_), 2 * largest_radius(*lmp));
   if (const std::string note = settle_gravity(*lmp, gas_case_.fluid); !note.empty())
     say(fmt::format("granflux: {}\n", note));
 
   auto coupler = make_coupler();
+  if (!options_.any_box)
+    check_box(*lmp, coupler->extent(), coupler->mesh().lattice.has_value(),
+              2 * largest_radius(*lmp));
   if (restored_) {
     coupler->load(restored_->coupler);
     clock_.restore(restored_->time_step, restored_->steps_left, restored_->owed);

@@ -59,17 +59,20 @@ void check_script(LAMMPS_NS::LAMMPS& lammps) {
   }
 }
 
-void check_box(LAMMPS_NS::LAMMPS& lammps, const cfd::BoxGrid& grid, double tolerance) {
+void check_box(LAMMPS_NS::LAMMPS& lammps, const coupling::GridExtent& grid, bool is_box,
+               double tolerance) {
   const LAMMPS_NS::Domain& box = *lammps.domain;
   for (std::size_t d = 0; d < 3; ++d) {
     const char name = direction_name[d];
-    const double gas_lo = grid.nodes[d].front(), gas_hi = grid.nodes[d].back();
+    const double gas_lo = grid.low[int(d)], gas_hi = grid.high[int(d)];
     const bool box_periodic = box.periodicity[d] != 0;
     if (grid.periodic[d] != box_periodic)
       throw ConfigError(fmt::format("direction {} is {} for the gas grid, but {} for the "
                                     "simulation box (boundary command)",
                                     name, grid.periodic[d] ? "periodic" : "not periodic",
                                     box_periodic ? "periodic" : "not periodic"));
+    if (!is_box && !box_periodic)
+      continue;
     const auto compare = [&](const char* side, double gas, double particles, double allowed) {
       if (!(std::abs(gas - particles) <= allowed))
         throw ConfigError(fmt::format(

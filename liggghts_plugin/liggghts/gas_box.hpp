@@ -5,6 +5,7 @@
 #include <string>
 
 #include <granflux/cfd/gas_case.hpp>
+#include <granflux/coupling/grid_extent.hpp>
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -17,9 +18,10 @@ namespace granflux::liggghts {
 void check_script(LAMMPS_NS::LAMMPS& lammps);
 
 /// The gas grid against the simulation box: periodic directions and lengths must agree, other
-/// sides within `tolerance` [m] (shrink-wrapped sides are the particles' and are not compared).
-/// Throws ConfigError.
-void check_box(LAMMPS_NS::LAMMPS& lammps, const cfd::BoxGrid& grid, double tolerance);
+/// sides, where the grid `is_box`, within `tolerance` [m] (shrink-wrapped sides are the particles'
+/// and are not compared). Throws ConfigError.
+void check_box(LAMMPS_NS::LAMMPS& lammps, const coupling::GridExtent& grid, bool is_box,
+               double tolerance);
 
 /// Radius of the largest particle on any rank [m]; 0 without particles. Collective.
 double largest_radius(LAMMPS_NS::LAMMPS& lammps);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <granflux/cfd/gas_solver.hpp>
+#include <granflux/coupling/grid_extent.hpp>
 #include <granflux/coupling/particle_view.hpp>
 
 namespace granflux::coupling {
@@ -104,6 +105,8 @@ public:
   [[nodiscard]] const CouplingTimes& times() const;
   [[nodiscard]] cfd::GasSolver& gas();
   [[nodiscard]] const cfd::Mesh& mesh() const;
+  /// Of the gas grid.
+  [[nodiscard]] const GridExtent& extent() const;
 
   /// Solver state and ledger of this rank for an exact restart; see GasSolver::save. load() takes
   /// the place of initialise(); the host keeps the FluidStates.

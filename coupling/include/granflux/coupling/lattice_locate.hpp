@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <granflux/cfd/mesh.hpp>
+#include <granflux/coupling/grid_extent.hpp>
 
 namespace granflux::coupling {
 
@@ -52,6 +53,7 @@ public:
   explicit LatticeLocator(const cfd::Lattice& lattice);
 
   [[nodiscard]] const LatticeAxis& axis(int d) const { return axes_[std::size_t(d)]; }
+  [[nodiscard]] const GridExtent& extent() const { return extent_; }
   /// Unwrapped cell triple; nothing for a point outside the domain.
   [[nodiscard]] std::optional<cfd::Index3> cell(const Vec3& x) const;
   /// The lattice cell that an unwrapped triple stands for.
@@ -66,6 +68,7 @@ public:
 
 private:
   std::array<LatticeAxis, 3> axes_;
+  GridExtent extent_;
 };
 
 // Here, not in the .cpp: these run several times a particle and coupling step.

@@ -12,7 +12,7 @@
 
 namespace granflux::coupling {
 
-/// Shares of the particles of this rank in the lattice cells around them. Depositing and sampling
+/// Shares of the particles of this rank in the gas cells around them. Depositing and sampling
 /// use the same shares, so that one is the adjoint of the other: for particle values q and a
 /// window field f
 ///
@@ -23,16 +23,16 @@ namespace granflux::coupling {
 class Weights {
 public:
   /// Renews the shares. Particles whose `coupled` entry is 0 (if given) are left out; so are those
-  /// with their centre outside the lattice, which are counted.
-  void build(const AnyKernel& kernel, const LatticeLocator& lattice, std::span<const Vec3> position,
+  /// with their centre outside the grid, which are counted. The kernel must serve the locator.
+  void build(const AnyKernel& kernel, const AnyLocator& locator, std::span<const Vec3> position,
              std::span<const double> radius, std::span<const std::uint8_t> coupled = {});
 
   [[nodiscard]] const Window& window() const { return window_; }
   [[nodiscard]] std::size_t particles() const { return offset_.size() - 1; }
-  /// Coupled and inside the lattice.
+  /// Coupled and inside the grid.
   [[nodiscard]] bool placed(std::size_t p) const { return offset_[p] < offset_[p + 1]; }
   [[nodiscard]] std::size_t placed_count() const { return placed_; }
-  /// Particles meant to be coupled but outside the lattice.
+  /// Particles meant to be coupled but outside the grid.
   [[nodiscard]] std::size_t outside_count() const { return outside_; }
 
   /// Window cells that particle p touches, and its shares in them.
@@ -60,6 +60,9 @@ private:
     Window window; ///< tight around its cells
   };
 
+  template <class Kernel, class Locator>
+  void find_shares(const Kernel& kernel, const Locator& locator, std::span<const Vec3> position,
+                   std::span<const double> radius, std::span<const std::uint8_t> coupled);
   void number_cells();
   void transpose();
 

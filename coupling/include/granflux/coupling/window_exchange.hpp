@@ -6,12 +6,13 @@
 #include <vector>
 
 #include <granflux/cfd/mesh.hpp>
+#include <granflux/coupling/block_stack.hpp>
 #include <granflux/coupling/window.hpp>
 
 namespace granflux::coupling {
 
 /// Moves fields between the windows of the ranks and the gas blocks on their owners, point to
-/// point: each rank works out from the lattice which blocks its window overlaps, and an owner
+/// point: each rank works out from the mesh which blocks its window overlaps, and an owner
 /// learns of its partners by a sparse consensus. Nothing grows with the number of ranks or with
 /// the size of the whole grid.
 class WindowExchange {
@@ -46,6 +47,8 @@ private:
   };
 
   [[nodiscard]] Window frame_around(const Window& window) const;
+  [[nodiscard]] std::vector<Overlap> overlaps_of_lattice() const;
+  [[nodiscard]] std::vector<Overlap> overlaps_of_stack() const;
   [[nodiscard]] std::vector<Partner> find_owners() const;
   [[nodiscard]] std::vector<Partner> find_users() const;
   /// Calls row(local block, position in it, cell of the frame, length) for every run of
@@ -60,6 +63,7 @@ private:
   [[nodiscard]] Inside inside(const cfd::Index3& first, std::size_t length) const;
 
   const cfd::Mesh& mesh_;
+  BlockStack stack_;       ///< numbers the cells where the mesh is no lattice
   std::vector<int> local_; ///< of every block: index into Mesh::local, -1 elsewhere
   Window window_;          ///< order of the fields
   Window frame_;           ///< what the pattern is for

@@ -11,8 +11,8 @@ struct Centre {
   static constexpr std::string_view name = "centre";
   static constexpr bool smooths = false;
 
-  template <class Emit>
-  void operator()(const LatticeLocator&, const ParticlePlace& particle, Emit&& emit) const {
+  template <class Locator, class Emit>
+  void operator()(const Locator&, const ParticlePlace& particle, Emit&& emit) const {
     emit(particle.cell, 1.0);
   }
 };

@@ -22,9 +22,9 @@ struct Divided {
   static constexpr bool smooths = false;
   static constexpr int points = 29;
 
-  template <class Emit>
-  void operator()(const LatticeLocator& lattice, const ParticlePlace& particle, Emit&& emit) const {
-    if (inside_one_cell(lattice, particle)) {
+  template <class Locator, class Emit>
+  void operator()(const Locator& locator, const ParticlePlace& particle, Emit&& emit) const {
+    if (inside_one_cell(locator, particle)) {
       emit(particle.cell, 1.0);
       return;
     }
@@ -33,7 +33,7 @@ struct Divided {
     int found = 0;
     for (const Vec3& offset : offsets()) {
       const auto cell =
-          lattice.cell(particle.centre + particle.radius * offset).value_or(particle.cell);
+          locator.cell(particle.centre + particle.radius * offset).value_or(particle.cell);
       int slot = 0;
       while (slot < found && cells[std::size_t(slot)] != cell)
         ++slot;
@@ -57,6 +57,8 @@ private:
     return lattice.cell(particle.centre - half) == particle.cell &&
            lattice.cell(particle.centre + half) == particle.cell;
   }
+  /// Cells that are no boxes: the points tell.
+  static bool inside_one_cell(const BlockLocator&, const ParticlePlace&) { return false; }
 
   /// Root mean square radius of the shell between the spheres that hold `inner` and `outer` of the
   /// 29 parts: sqrt(3/5 (b^5 - a^5) / (b^3 - a^3)).

@@ -5,7 +5,7 @@
 #include <concepts>
 #include <string_view>
 
-#include <granflux/coupling/lattice_locate.hpp>
+#include <granflux/coupling/locate.hpp>
 
 namespace granflux::coupling {
 
@@ -20,7 +20,8 @@ struct ParticlePlace {
 /// kernel emits each cell that gets a share of the particle once, with its unwrapped index triple
 /// and weight > 0. The weights sum to 1 to round-off. Along directions that are not periodic no
 /// cell outside the domain is emitted. `smooths`: the coupler passes the deposited fields, and the
-/// gas fields it samples, through Smoothing.
+/// gas fields it samples, through Smoothing. A kernel that can be called with a BlockLocator too
+/// serves grids that are fitted to bodies.
 template <class K>
 concept VoidFractionKernel = std::default_initializable<K> &&
     requires(const K kernel, const LatticeLocator& lattice, const ParticlePlace& particle) {

@@ -16,4 +16,11 @@ template <VoidFractionKernel... Kernels> using KernelList = LawList<Kernels...>;
 using VoidFractionKernels = KernelList<Centre, Divided, Trilinear, Smoothed>;
 using AnyKernel = VoidFractionKernels::Any;
 
+/// Whether a kernel serves what this locator finds cells in.
+template <class Kernel, class Locator>
+inline constexpr bool serves = requires(const Kernel kernel, const Locator& locator,
+                                        const ParticlePlace& particle) {
+  kernel(locator, particle, [](const cfd::Index3&, double) {});
+};
+
 } // namespace granflux::coupling

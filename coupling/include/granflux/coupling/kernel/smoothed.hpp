@@ -6,12 +6,18 @@
 
 namespace granflux::coupling {
 
-/// Trilinear deposit, then conservative diffusion of the gas fields over a length set in particle
-/// diameters (Smoothing): the void fraction no longer depends on the cell size, and cells may be
-/// smaller than particles.
+/// Trilinear deposit (on grids fitted to bodies: into the cell of the centre), then conservative
+/// diffusion of the gas fields over a length set in particle diameters (Smoothing): the void
+/// fraction no longer depends on the cell size, and cells may be smaller than particles.
 struct Smoothed : Trilinear {
   static constexpr std::string_view name = "smoothed";
   static constexpr bool smooths = true;
+
+  using Trilinear::operator();
+  template <class Emit>
+  void operator()(const BlockLocator&, const ParticlePlace& particle, Emit&& emit) const {
+    emit(particle.cell, 1.0);
+  }
 };
 
 } // namespace granflux::coupling

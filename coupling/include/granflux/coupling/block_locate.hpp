@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <granflux/cfd/mesh.hpp>
+#include <granflux/coupling/block_stack.hpp>
+#include <granflux/coupling/grid_extent.hpp>
+
+namespace granflux::coupling {
+
+/// Finds the cell of a point in blocks of any shape: a cell is what the trilinear map makes of the
+/// unit cube between its eight nodes. A regular grid of bins says which cells may hold a point;
+/// Newton's method inverts their maps. A point on a face belongs to the cell of lower number; one
+/// between a curved wall and the flat faces that stand for it to none.
+///
+/// Every rank holds the nodes of all blocks (24 bytes a cell, and some 120 to find it by):
+/// particles go where they like.
+class BlockLocator {
+public:
+  BlockLocator() = default;
+  /// Collective. Throws ConfigError on all ranks where a periodic connection is not along an axis.
+  explicit BlockLocator(const cfd::Mesh& mesh);
+
+  /// Cell as BlockStack numbers it; nothing for a point outside all cells, or not a number.
+  [[nodiscard]] std::optional<cfd::Index3> cell(const Vec3& x) const;
+  /// The periodic image of x that lies within the extent of the mesh along periodic directions.
+  [[nodiscard]] Vec3 fold(const Vec3& x) const;
+  [[nodiscard]] const GridExtent& extent() const { return extent_; }
+
+private:
+  struct Nodes {
+    cfd::Index3 cells{};
+    int first = 0; ///< layer of the stack
+    std::vector<Vec3> at;
+    [[nodiscard]] const Vec3& operator()(int i, int j, int k) const {
+      return at[std::size_t(i) + std::size_t(cells[0] + 1) *
+                                     (std::size_t(j) + std::size_t(cells[1] + 1) * std::size_t(k))];
+    }
+  };
+  struct Cell {
+    int block;
+    cfd::Index3 at;
+    Vec3 low, high; ///< of the box around it
+  };
+
+  void gather_nodes(const cfd::Mesh& mesh);
+  void find_periods(const cfd::Mesh& mesh);
+  void fill_bins();
+  [[nodiscard]] std::array<Vec3, 8> corners(const Cell& c) const;
+  [[nodiscard]] cfd::Index3 bin(const Vec3& x) const;
+  [[nodiscard]] std::size_t bin_number(const cfd::Index3& b) const {
+    return std::size_t(b[0]) +
+           std::size_t(bins_[0]) * (std::size_t(b[1]) + std::size_t(bins_[1]) * std::size_t(b[2]));
+  }
+
+  std::vector<Nodes> blocks_;
+  GridExtent extent_;
+  cfd::Index3 bins_{1, 1, 1};
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> bin_start_;  ///< of each bin in candidates_, and the end
+  std::vector<std::uint32_t> candidates_; ///< in cells_, increasing within a bin
+};
+
+} // namespace granflux::coupling
