@@ -16,7 +16,6 @@ from measure import ENVIRONMENT, GRANFLUX, ROOT, start
 
 RANK_WORK = GRANFLUX.parents[1] / "tests/bench/libbench_rank_work.so"
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
-IDLE = 0.02  # s; threads of the MPI library that work less than this are no workers
 # Those who wait give way to those who work.
 GIVE_WAY = {"OMPI_MCA_mpi_yield_when_idle": "1", "OMP_WAIT_POLICY": "passive"}
 
@@ -27,18 +26,19 @@ def in_plane(count):
     return (x, count // x, 1)
 
 
-def work_of(scene, program, options, grid, ranks, steps):
-    """({rank: seconds of its threads, most first}, output) of a run."""
+def work_of(scene, program, threads, grid, ranks, steps):
+    """({rank: seconds of its first thread and of the others, most first}, output) of a run. The MPI library has
+    threads too, which hardly work."""
     file = scene.folder / "work.txt"
     file.unlink(missing_ok=True)
     environment = {**ENVIRONMENT, **GIVE_WAY, "GRANFLUX_RANK_WORK": str(file)}
     words = scene.words(program, grid, steps=steps)
     # mpirun itself must not be counted: the ranks alone are told.
     preload = ["env", f"LD_PRELOAD={RANK_WORK}"]
-    output = start(scene.folder, preload[0], *preload[1:], str(program), *options, *words, ranks=ranks,
-                   environment=environment)
+    options = ["-threads", str(threads)] if program == GRANFLUX else []
+    output = start(scene.folder, *preload, str(program), *options, *words, ranks=ranks, environment=environment)
     lines = [line.split() for line in file.read_text().splitlines()]
-    return {int(rank): [float(first)] + sorted((s for s in map(float, others) if s > IDLE), reverse=True)
+    return {int(rank): [float(first)] + sorted(map(float, others), reverse=True)[:threads - 1]
             for rank, first, *others in lines}, output
 
 
@@ -49,10 +49,10 @@ def load_of(output):
     return {"most_particles": most("Nlocal"), "most_ghosts": most("Nghost")}
 
 
-def seconds_a_step(scene, program, options, grid, ranks, steps):
+def seconds_a_step(scene, program, threads, grid, ranks, steps):
     """Of every rank and thread; the start of the program falls out as what a short run takes."""
-    short, _ = work_of(scene, program, options, grid, ranks, steps[0])
-    long, output = work_of(scene, program, options, grid, ranks, steps[1])
+    short, _ = work_of(scene, program, threads, grid, ranks, steps[0])
+    long, output = work_of(scene, program, threads, grid, ranks, steps[1])
     between = 2 * (steps[1] - steps[0])  # the script runs them twice
     found = [(b - a) / between for rank in long for a, b in zip(short[rank], long[rank])]
     return {"grid": " ".join(map(str, grid)), "slowest": max(found), "mean": sum(found) / len(found), **load_of(output)}
@@ -71,13 +71,13 @@ def scaling(quick, bed):
         for count in COUNTS:
             grid = in_plane(count)
             ways = {
-                "liggghts, automatic grid": ("liggghts", [], AUTOMATIC, count),
-                "liggghts, cut across the floor": ("liggghts", [], grid, count),
-                "granflux ranks, cut across the floor": (GRANFLUX, ["-threads", "1"], grid, count),
-                "granflux threads": (GRANFLUX, ["-threads", str(count)], (1, 1, 1), 1),
+                "liggghts, automatic grid": ("liggghts", 1, AUTOMATIC, count),
+                "liggghts, cut across the floor": ("liggghts", 1, grid, count),
+                "granflux ranks, cut across the floor": (GRANFLUX, 1, grid, count),
+                "granflux threads": (GRANFLUX, count, (1, 1, 1), 1),
             }
-            table[count] = {name: seconds_a_step(scene, program, options, cut, ranks, steps)
-                            for name, (program, options, cut, ranks) in ways.items()}
+            table[count] = {name: seconds_a_step(scene, program, threads, cut, ranks, steps)
+                            for name, (program, threads, cut, ranks) in ways.items()}
             print(count, {name: f"{found['slowest']:.4f} s" for name, found in table[count].items()}, file=sys.stderr)
     one = table[1]["liggghts, cut across the floor"]["slowest"]
     for ways in table.values():
