@@ -32,14 +32,16 @@ def ring(path):
         for zone in base.values():
             if not zone.attrs.get("label", b"").startswith(b"Zone_t"):
                 continue
-            for axis in "XY":
-                nodes = zone["GridCoordinates"]["Coordinate" + axis][" data"][0]
-                centre = 0.25 * (nodes[1:, 1:] + nodes[1:, :-1] + nodes[:-1, 1:] + nodes[:-1, :-1])
+            nodes = {axis: zone["GridCoordinates"]["Coordinate" + axis][" data"][0] for axis in "XY"}
+            for axis, at in nodes.items():
+                centre = 0.25 * (at[1:, 1:] + at[1:, :-1] + at[:-1, 1:] + at[:-1, :-1])
                 columns.setdefault(axis, []).append(centre.ravel())
+            radius = np.hypot(nodes["X"], nodes["Y"])  # wider cells have their centres further in
+            columns.setdefault("radius", []).append((0.5 * (radius[:-1, 1:] + radius[:-1, :-1])).ravel())
             for name in ("VelocityX", "VelocityY", "Pressure"):
                 columns.setdefault(name, []).append(zone["FlowSolution"][name][" data"][0].ravel())
     data = {name: np.concatenate(parts) for name, parts in columns.items()}
-    r = np.round(np.hypot(data["X"], data["Y"]), 7)
+    r = np.round(data["radius"], 7)
     t = np.round(np.mod(np.arctan2(data["Y"], data["X"]), 2 * np.pi), 7)
     order = np.lexsort((r, t))
     radii = np.unique(r)
@@ -57,11 +59,11 @@ def vorticity(r, t, data):
     return (np.gradient(r * around, r, axis=1) - np.gradient(closed, angles, axis=0)[1:-1]) / r
 
 
-def wake_length(r, data):
+def wake_length(r, t, data):
     """Radii from the rear of the cylinder to where the gas on the axis behind it stands still."""
     u = data["VelocityX"]
     near, far = 0.5 * (u[0] + u[-1]), 0.5 * (u[1] + u[-2])
-    axis = (9 * near - far) / 8  # a parabola of the angle
+    axis = (t[1] ** 2 * near - t[0] ** 2 * far) / (t[1] ** 2 - t[0] ** 2)  # a parabola of the angle
     i = np.flatnonzero((axis[:-1] < 0) & (axis[1:] >= 0))
     if i.size == 0:
         return 0.0
@@ -78,9 +80,9 @@ def coefficients(path):
     return time, fx / (0.5 * DEPTH), fy / (0.5 * DEPTH)
 
 
-def measure(reynolds, r, data, time, drag, lift):
+def measure(reynolds, r, t, data, time, drag, lift):
     if reynolds < 50:
-        return {"Cd": drag[-1], "La/R": wake_length(r, data)}, (time[-1], time[-1])
+        return {"Cd": drag[-1], "La/R": wake_length(r, t, data)}, (time[-1], time[-1])
     up = np.flatnonzero((lift[:-1] < 0) & (lift[1:] >= 0))
     zero = time[up] - lift[up] * (time[up + 1] - time[up]) / (lift[up + 1] - lift[up])
     periods = min(4, zero.size - 1)
@@ -158,7 +160,7 @@ def main():
     results, reynolds = Path(sys.argv[1]), int(sys.argv[2])
     r, t, data = ring(sorted(results.glob("gas_*.cgns"))[-1])
     time, drag, lift = coefficients(results / "forces.csv")
-    measured, span = measure(reynolds, r, data, time, drag, lift)
+    measured, span = measure(reynolds, r, t, data, time, drag, lift)
     print(f"\ncylinder, Re = {reynolds}: {r.size} x {t.size} cells")
     good = True
     for name, value in measured.items():
