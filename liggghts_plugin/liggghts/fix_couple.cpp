@@ -90,10 +90,6 @@ void FixCouple::refuse_second_fix() const {
 void FixCouple::read_case() {
   cfd::CaseFile file = cfd::CaseFile::read(options_.case_file, world);
   gas_case_ = cfd::read_gas_case(file);
-  if (!std::holds_alternative<cfd::BoxGrid>(gas_case_.grid))
-    file.table("grid").fail("kind",
-                            "\"box\" in a case with particles: they are located on straight "
-                            "boxes of cells only");
   coupling_options_ = coupling::read_coupling(file);
   file.finish();
 }

@@ -54,12 +54,12 @@ class BadInput(HostTest):
         self.case_refused(CASE.replace("density = 1.2", "density = nan"), "density", "nan")
         self.case_refused(CASE + '[coupling]\ndrag = "stoks"\n', "stoks", "stokes")
 
-    def test_grid_that_is_no_box(self):
+    def test_shares_that_need_a_box(self):
         drum = '[grid]\nkind = "cylinder"\nradius = 1\nlength = 1\ncells = [2, 4, 2]\n'
         boundaries = ('[[boundary]]\nname = "wall"\ntype = "wall"\n[[boundary]]\nname = "low"\n'
                       'type = "wall"\n[[boundary]]\nname = "high"\ntype = "wall"\n')
         fluid = CASE[CASE.index("[fluid]") : CASE.index("[[boundary]]")]
-        self.case_refused(drum + fluid + boundaries, 'kind = "cylinder": must be "box" in a case with particles')
+        self.case_refused(drum + fluid + boundaries, 'void_fraction = "trilinear" needs a box grid')
 
     def test_overlapping_boundaries(self):
         self.case_refused(
