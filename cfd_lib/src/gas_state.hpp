@@ -83,19 +83,6 @@ struct GasSolver::Impl {
   [[nodiscard]] bool resting() const { return steps_at_rest > 3; }
   [[nodiscard]] Vec3 momentum();
   [[nodiscard]] std::string cell_name(std::int64_t encoded) const;
-  template <class Term> double sum(Term&& term) const {
-    double total = 0;
-    for (std::size_t b = 0; b < mesh.local.size(); ++b)
-      total += sum_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) { return term(b, c); });
-    return total;
-  }
-  template <class Term> double max(double least, Term&& term) const {
-    double largest = least;
-    for (std::size_t b = 0; b < mesh.local.size(); ++b)
-      largest =
-          max_cells(mesh.local[b].layout, largest, [&](std::ptrdiff_t c) { return term(b, c); });
-    return largest;
-  }
   void measure(double dt, StepReport& report) const;
 
   template <class Visit> void visit_state(Visit&& visit);

@@ -17,9 +17,22 @@ LIGGGHTS = os.environ.get("LIGGGHTS", "")
 MPIRUN = shlex.split(os.environ["MPIRUN"])
 TIMEOUT = 90  # s; a run that takes longer hangs
 
+# Contacts and neighbour lists of spheres of 1 mm.
+MATERIAL = """fix             kn all property/global kn peratomtypepair 1 500
+fix             kt all property/global kt peratomtypepair 1 140
+fix             gn all property/global gamman_abs peratomtypepair 1 2e-3
+fix             gt all property/global gammat_abs peratomtypepair 1 2e-3
+fix             mu all property/global coefficientFriction peratomtypepair 1 0.3
+pair_style      gran model hooke/stiffness tangential history absolute_damping on
+pair_coeff      * *
+neighbor        3e-4 bin
+neigh_modify    delay 0
+"""
+
 # 180 spheres above the floor of a box of 10 x 6 x 40 mm, with velocities that make them collide. No
 # random numbers: those of LIGGGHTS depend on the number of ranks.
-BED = """
+BED = (
+    """
 units           si
 atom_style      granular
 atom_modify     map array
@@ -36,16 +49,9 @@ set             group all diameter 1e-3 density 1000
 velocity        all ramp vx -0.2 0.2 z 0 4e-3 units box
 velocity        all ramp vy -0.1 0.3 x 0 10e-3 sum yes units box
 velocity        all ramp vz 0.2 -0.3 y 0 6e-3 sum yes units box
-fix             kn all property/global kn peratomtypepair 1 500
-fix             kt all property/global kt peratomtypepair 1 140
-fix             gn all property/global gamman_abs peratomtypepair 1 2e-3
-fix             gt all property/global gammat_abs peratomtypepair 1 2e-3
-fix             mu all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style      gran model hooke/stiffness tangential history absolute_damping on
-pair_coeff      * *
-neighbor        3e-4 bin
-neigh_modify    delay 0
-fix             zlow all wall/gran model hooke/stiffness tangential history &
+"""
+    + MATERIAL
+    + """fix             zlow all wall/gran model hooke/stiffness tangential history &
                 primitive type 1 zplane 0 absolute_damping on
 fix             xlow all wall/gran model hooke/stiffness tangential history &
                 primitive type 1 xplane 0 absolute_damping on
@@ -60,6 +66,7 @@ fix             move all nve/sphere
 timestep        1e-5
 thermo_modify   lost error norm no
 """
+)
 
 CASE = """
 [grid]

@@ -4,7 +4,7 @@
 
 import unittest
 
-from host import HostTest, couple, dump, largest_difference, last_snapshot, thermo, thermo_rows
+from host import MATERIAL, HostTest, couple, dump, largest_difference, last_snapshot, thermo, thermo_rows
 
 RADIUS, LENGTH = 10e-3, 8e-3
 
@@ -23,16 +23,7 @@ region          bed block -6e-3 6e-3 -6e-3 0 0 7.9e-3 units box
 create_atoms    1 region bed
 set             group all diameter 1e-3 density 1000
 velocity        all ramp vx -0.2 0.2 z 0 8e-3 units box
-fix             kn all property/global kn peratomtypepair 1 500
-fix             kt all property/global kt peratomtypepair 1 140
-fix             gn all property/global gamman_abs peratomtypepair 1 2e-3
-fix             gt all property/global gammat_abs peratomtypepair 1 2e-3
-fix             mu all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style      gran model hooke/stiffness tangential history absolute_damping on
-pair_coeff      * *
-neighbor        3e-4 bin
-neigh_modify    delay 0
-fix             shell all wall/gran model hooke/stiffness tangential history &
+{MATERIAL}fix             shell all wall/gran model hooke/stiffness tangential history &
                 primitive type 1 zcylinder {RADIUS} 0 0 absolute_damping on
 fix             gravity all gravity 9.81 vector 0 -1 0
 fix             move all nve/sphere
