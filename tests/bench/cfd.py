@@ -43,12 +43,15 @@ VISCOUS_TOLERANCE = 1e-6  # of both programs
 DEFAULT_TOLERANCE = 1e-10  # of a case file that gives none
 # Function of the program, by the first of these names in its symbol, and its part of a step.
 PARTS = {
-    "pressure solver": r"Multigrid|PressureSolver|_plane|coarse|Coarse|scale_to_one|smooth_|spread",
-    "viscous solver": r"DiffusionSolver|cfd::diffusion\(",
+    "pressure solver": r"Multigrid|PressureSolver|_plane|step_row<\w+, false|coarse|Coarse|"
+                       r"scale_to_one|smooth_|spread",
+    "viscous solver": r"DiffusionSolver|cfd::diffusion\(|step_row<\w+, true",
     "convection": r"convect<|convect_momentum|Central|through",
     "rest of the predictor": r"predict|begin_momentum|add_new_friction|viscous_force|"
-                             r"set_conductance|GasSolver::advance|move_inertia",
-    "projection": r"interpolate_momentum|project|set_pressure_gradient|set_gradient|make_solvable",
+                             r"set_conductance|set_momentum|set_medium|GasSolver::advance|"
+                             r"move_void_fraction",
+    "projection": r"interpolate_momentum|project|set_pressure_gradient|set_gradient|set_velocity|"
+                  r"take_continuity",
     "boundaries and halo": r"Boundaries|Halo|Level::exchange",
     "balance and report": r"measure|momentum\(\)|take_balance|check_finite",
     "system": r"\[k\]",
