@@ -43,9 +43,10 @@ Unknown GasSolver::Impl::component(std::size_t m) {
           }};
 }
 
-/// What stays the same while nothing changes the medium: inertia and share, with their ghosts.
+/// What stays the same while nothing changes the medium: inertia and share, with their ghosts, and
+/// the operator of friction, which eddies change in every step.
 void GasSolver::Impl::set_medium(double dt, const MomentumExchange* exchange) {
-  if (resting() && dt == dt_old && !exchange && !exchanged)
+  if (resting() && eddy_viscosity.empty() && dt == dt_old && !exchange && !exchanged)
     return;
   exchanged = exchange != nullptr;
   const double rho_dt = fluid.density / dt;
