@@ -13,13 +13,19 @@ PARTICLES, DENSITY, GAS_DENSITY, GRAVITY = 9240, 1000.0, 1.2, 9.81
 WEIGHT_PER_AREA = PARTICLES * (DENSITY - GAS_DENSITY) * np.pi / 6 * DIAMETER**3 * GRAVITY / (WIDTH * DEPTH)  # Pa
 
 
+def log_of(results):
+    """The log of LIGGGHTS or of LAMMPS in a folder of results."""
+    return next(log for log in (results / "log.liggghts", results / "log.lammps") if log.exists())
+
+
 def thermo(log):
-    """Columns of the last run that prints f_gas in a log file: {heading: values}."""
+    """Columns of the last run that prints f_gas in a log file: {heading: values}. LIGGGHTS leaves the
+    f_ of a heading out, LAMMPS does not."""
     table, heads = {}, None
     for line in Path(log).read_text().splitlines():
         words = line.split()
         if words and words[0] == "Step":
-            heads = words if any("gas" in w for w in words) else None
+            heads = [w.removeprefix("f_") for w in words] if "gas" in line else None
             if heads:
                 table = {h: [] for h in heads}
         elif heads and len(words) == len(heads) and re.match(r"^\d+$", words[0]):
@@ -47,8 +53,8 @@ def particles(path):
     return data
 
 
-def frames(path):
-    """Positions (n, 3) of every frame of a text dump `id x y z ...`."""
+def frames(path, columns=("x", "y", "z")):
+    """Step and columns (n, ...) of every frame of a text dump."""
     with open(path) as file:
         while line := file.readline():
             if line.startswith("ITEM: TIMESTEP"):
@@ -56,8 +62,27 @@ def frames(path):
             elif line.startswith("ITEM: NUMBER OF ATOMS"):
                 count = int(file.readline())
             elif line.startswith("ITEM: ATOMS"):
-                rows = np.loadtxt([file.readline() for _ in range(count)], usecols=(1, 2, 3), ndmin=2)
+                heads = line.split()[2:]
+                rows = np.loadtxt([file.readline() for _ in range(count)], ndmin=2,
+                                  usecols=[heads.index(column) for column in columns])
                 yield step, rows
+
+
+def snapshots(results):
+    """Step, positions (n, 3) and vertical velocities of every particle output: VTK files of LIGGGHTS,
+    a text dump of LAMMPS."""
+    dump = results / "post/particles.txt"
+    if dump.exists():
+        return [(step, rows[:, :3], rows[:, 3]) for step, rows in frames(dump, ("x", "y", "z", "vz"))]
+    found = []
+    for path in (results / "post").glob("particles_*.vtk"):
+        if "bound" in path.name:
+            continue
+        data = particles(path)
+        v = data.get("v", data.get("vz"))
+        step = int("".join(c for c in path.stem if c.isdigit()))
+        found.append((step, data["x"], v[:, 2] if v.ndim == 2 else v))
+    return sorted(found, key=lambda snapshot: snapshot[0])
 
 
 def _cap(t):

@@ -17,29 +17,21 @@ from matplotlib.collections import EllipseCollection
 import bed
 
 
-def number(path):
-    return int("".join(c for c in path.stem if c.isdigit()))
-
-
 def draw_bed(results):
-    files = sorted((f for f in (results / "post").glob("particles_*.vtk") if "bound" not in f.name),
-                   key=number)
+    snapshots = bed.snapshots(results)
     gases = [bed.gas(f) for f in sorted((results / "post").glob("gas_*.cgns"))]
-    table = bed.thermo(results / "log.liggghts")
+    table = bed.thermo(bed.log_of(results))
     time_of = dict(zip(table["Step"], table["Time"]))
-    chosen = [files[round(i * (len(files) - 1) / 3)] for i in range(4)]
+    chosen = [snapshots[round(i * (len(snapshots) - 1) / 3)] for i in range(4)]
     figure, axes = plt.subplots(1, 5, figsize=(13, 8), sharey=True, layout="constrained")
-    for axis, path in zip(axes, chosen):
-        data = bed.particles(path)
-        x, v = data["x"], data.get("v", data.get("vz"))
-        speed = v[:, 2] if v.ndim == 2 else v
+    for axis, (step, x, speed) in zip(axes, chosen):
         order = np.argsort(-x[:, 1])
         spheres = EllipseCollection(
             1.2, 1.2, 0, units="xy", offsets=1e3 * x[order][:, [0, 2]],
             transOffset=axis.transData, array=speed[order], cmap="coolwarm", linewidths=0)
         spheres.set_clim(-0.5, 0.5)
         axis.add_collection(spheres)
-        axis.set_title(f"t = {time_of.get(number(path), np.nan):.2f} s")
+        axis.set_title(f"t = {time_of.get(step, np.nan):.2f} s")
     figure.colorbar(spheres, ax=axes[:4], location="bottom", shrink=0.5, aspect=40,
                     label="particle velocity upwards, m/s")
     gas = gases[-1]
@@ -60,7 +52,7 @@ def draw_bed(results):
 
 
 def draw_pressure_drop(results):
-    table = bed.thermo(results / "log.liggghts")
+    table = bed.thermo(bed.log_of(results))
     time, drop = table["Time"], table["gas[1]"]
     figure, axis = plt.subplots(figsize=(8, 4.5), layout="constrained")
     axis.plot(time, drop, lw=1, label="pressure drop of the gas")

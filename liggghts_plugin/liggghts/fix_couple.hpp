@@ -3,21 +3,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 
 #include <liggghts/fix.h>
 
-#include <granflux/cfd/cgns_writer.hpp>
-#include <granflux/coupling/coupler.hpp>
-
-#include "couple_clock.hpp"
-#include "couple_options.hpp"
-#include "couple_restart.hpp"
+#include "driver/gas_driver.hpp"
 #include "fix_heat.hpp"
 #include "host_view.hpp"
-#include "progress.hpp"
-#include "run_report.hpp"
 
 namespace LAMMPS_NS {
 class FixPropertyAtom;
@@ -47,27 +38,14 @@ private:
   /// Runs what may throw, and stops LIGGGHTS with the text where it does.
   template <class Work> void guard(Work&& work);
   void refuse_second_fix() const;
-  void read_case();
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool& own);
-  void begin();
-  std::unique_ptr<coupling::Coupler> make_coupler() const;
-  std::string summary() const;
-  void start_run();
-  void start_timers();
-  void exchange();
-  void warn_if_stiff(double stiffness);
-  void apply(double share);
-  void write_fields();
-  void fill_outputs();
   void find_heat();
-  void say(const std::string& text) const;
-  double pressure_drop();
+  void time_all_fixes();
+  [[nodiscard]] driver::RunSteps run_steps() const;
+  void fill_outputs();
 
-  CoupleOptions options_;
-  cfd::GasCase gas_case_;
-  coupling::CouplingOptions coupling_options_;
-  CoupleClock clock_;
-  Progress progress_;
+  std::unique_ptr<driver::GasDriver> gas_;
+  std::unique_ptr<HostView> host_;
 
   // Fluid state and outputs of each particle; kept by LIGGGHTS.
   LAMMPS_NS::FixPropertyAtom* fluid_ = nullptr;
@@ -76,26 +54,10 @@ private:
   LAMMPS_NS::FixPropertyAtom* gas_velocity_ = nullptr;
   LAMMPS_NS::FixPropertyAtom* heat_states_ = nullptr;     // only where the gas has a temperature
   LAMMPS_NS::FixPropertyAtom* gas_temperature_ = nullptr; // likewise
-  FixHeat* heat_ = nullptr;                               // likewise
   bool own_drag_force_ = false, own_void_fraction_ = false, own_gas_velocity_ = false,
        own_gas_temperature_ = false;
 
-  std::unique_ptr<HostView> host_;
-  std::unique_ptr<coupling::Coupler> coupler_; // from the first run on
-  std::unique_ptr<cfd::CgnsWriter> fields_;    // where the case asks for fields
-  double next_fields_time_ = 0;
-  std::optional<CoupleState> restored_; // from a restart file, until the first run
-  /// Time step of the last force, of which the integrator has applied one half [s]; 0: none yet.
-  double last_force_dt_ = 0;
-
-  // Of the current run.
-  bool running_ = false;
-  bool warned_of_stiffness_ = false; ///< in this or an earlier run
-  int timing_of_script_ = 0;         ///< what the command modify_timing asked for
-  coupling::CouplingTimes times_at_start_;
-  double fields_seconds_ = 0;
-  double particle_steps_ = 0; // this rank
-  LargestResiduals largest_;
+  int timing_of_script_ = 0; ///< what the command modify_timing asked for
 };
 
 } // namespace granflux::liggghts

@@ -3,15 +3,19 @@
 
 #include "host_view.hpp"
 
-#include <algorithm>
+#include <cstdio>
 #include <string_view>
 
+#include <liggghts/lammps.h>
+
 #include <liggghts/atom.h>
+#include <liggghts/comm.h>
 #include <liggghts/fix.h>
 #include <liggghts/fix_property_atom.h>
 #include <liggghts/modify.h>
 
 #include "fix_heat.hpp"
+#include "scene.hpp"
 
 namespace granflux::liggghts {
 
@@ -22,22 +26,24 @@ template <class Row> std::span<Row> rows(double** array, std::size_t n) {
   return n ? std::span<Row>(reinterpret_cast<Row*>(array[0]), n) : std::span<Row>();
 }
 
-constexpr int all_bit = 1; // bit of LIGGGHTS' group `all`
-
 } // namespace
 
 HostView::HostView(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::FixPropertyAtom& fluid, int group_bit,
                    int held_bit)
-    : Pointers(lammps), fluid_(fluid), group_bit_(group_bit), held_bit_(held_bit) {}
+    : Pointers(lammps), fluid_(fluid), groups_(group_bit, held_bit) {}
 
 void HostView::find_held() {
-  frozen_bits_ = moved_bits_ = 0;
+  groups_.forget_fixes();
   for (const LAMMPS_NS::Fix* fix : std::span(modify->fix, std::size_t(modify->nfix))) {
     if (std::string_view(fix->style) == "freeze")
-      frozen_bits_ |= fix->groupbit;
+      groups_.add_frozen(fix->groupbit);
     if (fix->time_integrate)
-      moved_bits_ |= fix->groupbit;
+      groups_.add_moved(fix->groupbit);
   }
+}
+
+driver::Scene HostView::scene() {
+  return scene_of(*lmp);
 }
 
 coupling::ParticleView HostView::particles(bool with_id) {
@@ -49,21 +55,7 @@ coupling::ParticleView HostView::particles(bool with_id) {
   view.radius = {atom->radius, n};
   view.mass = {atom->rmass, n};
   view.fluid = rows<coupling::FluidState>(fluid_.array_atom, n);
-
-  const std::span<const int> mask(atom->mask, n);
-  if (group_bit_ != all_bit) {
-    coupled_.resize(n);
-    std::ranges::transform(mask, coupled_.begin(),
-                           [&](int m) { return std::uint8_t((m & group_bit_) != 0); });
-    view.coupled = coupled_;
-  }
-  if (frozen_bits_ || held_bit_ || !(moved_bits_ & all_bit)) {
-    fixed_.resize(n);
-    std::ranges::transform(mask, fixed_.begin(), [&](int m) {
-      return std::uint8_t((m & (frozen_bits_ | held_bit_)) != 0 || (m & moved_bits_) == 0);
-    });
-    view.fixed = fixed_;
-  }
+  groups_.show({atom->mask, n}, view);
   if (heat_) {
     heat_->show_to_gas(view);
     view.heat = {heat_states(), n};
@@ -81,13 +73,22 @@ coupling::HeatState* HostView::heat_states() const {
 }
 
 void HostView::clear_frozen_forces() {
-  if (!frozen_bits_)
-    return;
   const auto n = std::size_t(atom->nlocal);
-  const std::span<Vec3> forces = rows<Vec3>(atom->f, n);
-  for (std::size_t i = 0; i < n; ++i)
-    if (atom->mask[i] & frozen_bits_)
-      forces[i] = {};
+  groups_.clear_frozen_forces({atom->mask, n}, rows<Vec3>(atom->f, n));
+}
+
+double HostView::step_temperatures() {
+  return heat_->step_with_gas(heat_states());
+}
+
+void HostView::say(const std::string& text) {
+  if (comm->me != 0)
+    return;
+  for (FILE* out : {screen, logfile})
+    if (out) {
+      std::fputs(text.c_str(), out);
+      std::fflush(out);
+    }
 }
 
 } // namespace granflux::liggghts

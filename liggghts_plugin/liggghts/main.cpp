@@ -21,9 +21,9 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/version.hpp>
 
+#include "driver/thread_placement.hpp"
 #include "launch_options.hpp"
 #include "register_styles.hpp"
-#include "thread_placement.hpp"
 
 namespace {
 
@@ -52,7 +52,7 @@ void install_signal_handlers() {
 }
 
 void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
-  const std::string advice = granflux::liggghts::thread_placement_advice(lammps.world);
+  const std::string advice = granflux::driver::thread_placement_advice(lammps.world);
   if (lammps.comm->me == 0 && lammps.screen)
     fmt::print(lammps.screen, "{}", advice);
 }

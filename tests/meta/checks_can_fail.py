@@ -61,6 +61,16 @@ class Checks(unittest.TestCase):
         self.write("coupling/src/b.cpp", BSD + '#include "fix_nve.h"\n')
         self.assert_one_fault(layering.faults_of(self.root), "host's header")
 
+    def test_a_header_of_the_other_host(self):
+        self.write("liggghts_plugin/lammps/a.cpp", GPL + "#include <lammps/fix.h>\n")
+        self.write("liggghts_plugin/driver/a.cpp", GPL + "#include <string>\n")
+        self.assertEqual(layering.faults_of(self.root), [])
+        self.write("liggghts_plugin/lammps/a.cpp", GPL + "#include <liggghts/fix.h>\n")
+        self.assert_one_fault(layering.faults_of(self.root), "lammps may not see")
+        self.write("liggghts_plugin/lammps/a.cpp", GPL)
+        self.write("liggghts_plugin/driver/a.cpp", GPL + "#include <lammps/fix.h>\n")
+        self.assert_one_fault(layering.faults_of(self.root), "driver may not see")
+
     def test_a_file_of_another_folder(self):
         self.write("cfd_lib/src/a.cpp", BSD + '#include "../../coupling/src/b.cpp"\n')
         self.assert_one_fault(layering.faults_of(self.root), "outside cfd_lib")

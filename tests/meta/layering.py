@@ -26,6 +26,9 @@ HOST_HEADER = re.compile(
     r"(liggghts/.*|lammps/.*|(lammps|atom|fix|fix_\w+|pair|pair_\w+|modify|update|neighbor|force|"
     r"error|memory|comm|domain|input|output|compute|contact_models|pointers|style_\w+)\.h)$"
 )
+# Folders of the plugin: the host whose headers they may include. Both hosts have classes of the same
+# names and other layouts.
+HOST_OF = {"driver": None, "liggghts": "liggghts/", "lammps": "lammps/"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -45,6 +48,11 @@ def faults_of(root):
                     faults.append(where + f"{folder} may include {allowed} only")
                 if folder != "liggghts_plugin" and HOST_HEADER.match(header):
                     faults.append(where + "a host's header, for its plugin only")
+                if folder == "liggghts_plugin" and quote == "<":
+                    part = path.relative_to(base).parts[0]
+                    if HOST_HEADER.match(header) and part in HOST_OF:
+                        if not HOST_OF[part] or not header.startswith(HOST_OF[part]):
+                            faults.append(where + f"a host's header that {part} may not see")
                 if public and PRIVATE_LIBRARY.match(header):
                     faults.append(where + "stays out of public headers")
                 if quote == '"' and not folder.startswith("tests"):

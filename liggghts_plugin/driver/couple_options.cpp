@@ -13,7 +13,7 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/nearest_name.hpp>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 namespace {
 
@@ -72,4 +72,4 @@ CoupleOptions read_couple_options(std::span<char*> words) {
   return options;
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

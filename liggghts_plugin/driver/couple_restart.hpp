@@ -6,7 +6,7 @@
 #include <mpi.h>
 #include <vector>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// What fix granflux/couple keeps in a restart file beside the fluid states of the particles.
 struct CoupleState {
@@ -19,11 +19,11 @@ struct CoupleState {
 };
 
 /// Rank 0 gathers the state of all ranks and writes it as one block, its length first, as
-/// LIGGGHTS reads it back. Collective; throws ConfigError where it is too long for the format.
+/// hosts read it back. Collective; throws ConfigError where it is too long for the format.
 void write_couple_state(const CoupleState& state, std::FILE* file, MPI_Comm comm);
 
 /// This rank's part of a block that write_couple_state wrote. Throws ConfigError where the number
 /// of ranks differs.
 CoupleState read_couple_state(const char* block, MPI_Comm comm);
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

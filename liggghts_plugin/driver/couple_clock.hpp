@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// When the gas is advanced and by how much. After a coupling step the gas is `every` particle
 /// steps ahead of the particles, which then catch up; the count survives several runs, and a
@@ -46,4 +46,4 @@ private:
   double owed_ = 0;     // seconds to be added to the next interval
 };
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

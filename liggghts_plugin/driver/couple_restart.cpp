@@ -12,7 +12,7 @@
 
 #include <granflux/cfd/error.hpp>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 namespace {
 
@@ -101,4 +101,4 @@ CoupleState read_couple_state(const char* block, MPI_Comm comm) {
   return state;
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// What follows the style name in `fix ID group granflux/couple ...`.
 struct CoupleOptions {
@@ -23,4 +23,4 @@ CoupleOptions read_couple_options(std::span<char*> words);
 int read_couple_every(const std::string& word);
 double read_progress_every(const std::string& word);
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

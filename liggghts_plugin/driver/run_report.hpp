@@ -6,7 +6,7 @@
 
 #include <granflux/coupling/coupler.hpp>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// Seconds of one run, mean over the ranks once reduced.
 struct RunTimes {
@@ -48,4 +48,4 @@ double relative_heat_residual(const cfd::Balance& balance);
 std::string run_report(const RunTimes& times, const LargestResiduals& largest,
                        double particle_steps);
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

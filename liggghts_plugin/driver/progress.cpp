@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 std::string duration(double seconds) {
   const long s = std::lround(seconds);
@@ -36,4 +36,4 @@ std::string Progress::line(long step, double simulated, double now) {
                      100 * done, simulated, rate, duration(elapsed * (1 - done) / done));
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

@@ -10,7 +10,7 @@
 #include <fmt/core.h>
 #include <omp.h>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::string thread_placement_advice(MPI_Comm comm) {
   return {};
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

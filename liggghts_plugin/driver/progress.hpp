@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// Lines on the progress of a run: share done, simulated time, speed, time left.
 class Progress {
@@ -27,4 +27,4 @@ private:
 /// 3725 -> "1 h 02 min", 75 -> "1 min 15 s", 7.2 -> "7 s".
 std::string duration(double seconds);
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

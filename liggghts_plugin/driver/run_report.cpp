@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::string run_report(const RunTimes& times, const LargestResiduals& largest,
   return text;
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace granflux::driver {
+
+/// Takes an option and its value out of a command line, so that the host sees the rest only; the
+/// last one counts. Throws ConfigError where the value is missing.
+std::optional<std::string_view> take_option(int& argc, char** argv, std::string_view option);
+
+/// Sets the number of OpenMP threads: the value of `-threads`, which is taken out of the command
+/// line, else OMP_NUM_THREADS, else 1 as in the hosts. Returns it. Throws ConfigError where it is
+/// not a number of threads.
+int take_threads(int& argc, char** argv);
+
+} // namespace granflux::driver

@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "gas_driver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <granflux/cfd/error.hpp>
+#include <granflux/cfd/read_gas_case.hpp>
+#include <granflux/coupling/read_coupling.hpp>
+
+namespace granflux::driver {
+
+namespace {
+
+constexpr double stiffness_limit = 1.5; // docs/theory_coupling.md, section 7
+constexpr double half_kick = 0.5;       // of velocity Verlet: before and after the force
+
+/// Continues on one rank what it did before, up to the rounding of the next file's time.
+constexpr double time_rounding = 1e-9;
+
+} // namespace
+
+GasDriver::GasDriver(std::span<char*> words, MPI_Comm comm)
+    : comm_(comm), options_(read_couple_options(words)), clock_(options_.couple_every),
+      progress_(options_.progress_every) {
+  cfd::CaseFile file = cfd::CaseFile::read(options_.case_file, comm);
+  gas_case_ = cfd::read_gas_case(file);
+  coupling_options_ = coupling::read_coupling(file);
+  file.finish();
+}
+
+/// What the run is made of, so that a wrong unit shows before it starts.
+std::string GasDriver::summary() const {
+  const cfd::Fluid& fluid = gas_case_.fluid;
+  const cfd::Mesh& mesh = coupler_->mesh();
+  std::string cells;
+  if (mesh.lattice) {
+    const cfd::Index3 n = mesh.lattice->cells();
+    cells = fmt::format("{} x {} x {} cells", n[0], n[1], n[2]);
+  } else {
+    long count = 0;
+    for (const cfd::BlockInfo& block : mesh.blocks)
+      count += long(block.cells[0]) * block.cells[1] * block.cells[2];
+    cells = fmt::format("{} cells in {} blocks", count, mesh.blocks.size());
+  }
+  std::string text =
+      fmt::format("granflux: gas of {:g} kg/m3 and {:g} Pa s on {}; "
+                  "gravity {:g} {:g} {:g} m/s2; "
+                  "drag {}, void fraction {}, model {}\n",
+                  fluid.density, fluid.viscosity, cells, fluid.gravity.x, fluid.gravity.y,
+                  fluid.gravity.z, coupling_options_.drag, coupling_options_.void_fraction,
+                  coupling_options_.model == coupling::MomentumModel::a ? "a" : "b");
+  for (const cfd::BoundaryCondition& boundary : gas_case_.boundaries)
+    if (boundary.kind == cfd::BoundaryKind::inlet)
+      text += fmt::format("granflux: inlet {}: {:g} {:g} {:g} m/s\n", boundary.name,
+                          boundary.velocity.x, boundary.velocity.y, boundary.velocity.z);
+  return text;
+}
+
+/// Errors in grid and boundaries show here only: they are those of the case file.
+std::unique_ptr<coupling::Coupler> GasDriver::make_coupler() const {
+  try {
+    return std::make_unique<coupling::Coupler>(gas_case_, coupling_options_, comm_);
+  } catch (const ConfigError& e) {
+    throw ConfigError(options_.case_file + ": " + e.what());
+  }
+}
+
+/// Before the first run: the gas at its initial or restored state, the particles where they are.
+void GasDriver::begin(Host& host) {
+  const Scene scene = host.scene();
+  if (const std::string note = settle_gravity(scene, gas_case_.fluid); !note.empty())
+    host.say(fmt::format("granflux: {}\n", note));
+
+  auto coupler = make_coupler();
+  if (!options_.any_box)
+    check_box(scene, coupler->extent(), coupler->mesh().lattice.has_value());
+  if (restored_) {
+    coupler->load(restored_->coupler);
+    clock_.restore(restored_->time_step, restored_->steps_left, restored_->owed);
+    last_force_dt_ = restored_->time_step;
+    next_fields_time_ = restored_->next_fields_time;
+  } else {
+    coupler->initialise(host.particles(true), 0);
+  }
+  if (!gas_case_.output.fields.empty())
+    fields_ = std::make_unique<cfd::CgnsWriter>(coupler->mesh(), gas_case_.output.fields,
+                                                restored_ ? restored_->fields_written : 0);
+  coupler_ = std::move(coupler);
+  host.say(summary());
+  if (!restored_)
+    write_fields();
+  restored_.reset();
+}
+
+void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
+  if (!coupler_)
+    begin(host);
+  begin_run(steps);
+  clock_.set_time_step(dt);
+
+  // The last run ended, or its restart file was written, with a force whose second half the
+  // integrator never applied: the host has just computed all forces anew.
+  if (last_force_dt_ > 0)
+    coupler_->unapply(host.particles(false), last_force_dt_, half_kick);
+  if (clock_.due())
+    exchange(host);
+  apply(host, half_kick);
+}
+
+void GasDriver::begin_run(RunSteps steps) {
+  if (!coupler_)
+    throw ConfigError("the first run with the gas must be set up: 'run N' without 'pre no'");
+  running_ = true;
+  steps_ = steps;
+  largest_ = {};
+  start_timers();
+}
+
+void GasDriver::start_timers() {
+  times_at_start_ = coupler_->times();
+  fields_seconds_ = particle_steps_ = 0;
+  progress_.start(steps_.first, steps_.last, MPI_Wtime());
+}
+
+bool GasDriver::step(Host& host, long step, double dt) {
+  if (dt != clock_.time_step())
+    throw ConfigError(fmt::format("the time step changed from {} to {} s within a run: it must be "
+                                  "constant (no fix dt/reset)",
+                                  clock_.time_step(), dt));
+  // Up to here with the gas that was ahead: an interval has all its steps before the next.
+  if (with_heat())
+    coupler_->received_heat(host.step_temperatures());
+  clock_.count_step();
+  const bool coupling_step = clock_.due();
+  if (coupling_step)
+    exchange(host);
+  apply(host, 1);
+  if (coupling_step)
+    if (const std::string line = progress_.line(step, coupler_->gas().time(), MPI_Wtime());
+        !line.empty())
+      host.say(line);
+  return coupling_step;
+}
+
+void GasDriver::exchange(Host& host) {
+  const coupling::ExchangeReport& report =
+      coupler_->exchange(host.particles(true), clock_.interval());
+  clock_.advanced();
+  warn_if_stiff(host, report.stiffness_max);
+  largest_.add(report, coupler_->gas().balance());
+  write_fields();
+}
+
+/// Once: the gas of a packed bed that is not marked as fixed is then not stable.
+void GasDriver::warn_if_stiff(Host& host, double stiffness) {
+  if (stiffness <= stiffness_limit || warned_of_stiffness_)
+    return;
+  warned_of_stiffness_ = true;
+  host.say(fmt::format(
+      "granflux: WARNING: the coupling interval is {:.3g} times the response time of "
+      "the quickest particle; above {} gas in a packed bed that contacts hold may not "
+      "be stable: lower couple_every to {} or less, or name held particles by "
+      "fixed_group\n",
+      stiffness, stiffness_limit,
+      std::max(1, int(clock_.interval() / clock_.time_step() * stiffness_limit / stiffness))));
+}
+
+void GasDriver::apply(Host& host, double share) {
+  const coupling::ParticleView particles = host.particles(false);
+  coupler_->apply(particles, clock_.time_step(), share);
+  host.clear_frozen_forces();
+  last_force_dt_ = clock_.time_step();
+  particle_steps_ += double(particles.size());
+}
+
+void GasDriver::write_fields() {
+  const double every = gas_case_.output.every, time = coupler_->gas().time();
+  if (!fields_ || time < next_fields_time_ - time_rounding * every)
+    return;
+  const double start = MPI_Wtime();
+  fields_->write(coupler_->gas());
+  while (next_fields_time_ <= time + time_rounding * every)
+    next_fields_time_ += every;
+  fields_seconds_ += MPI_Wtime() - start;
+}
+
+/// Of this rank and run.
+coupling::CouplingTimes GasDriver::coupling_times() const {
+  const coupling::CouplingTimes now = coupler_->times();
+  return {.gas = now.gas - times_at_start_.gas,
+          .locate = now.locate - times_at_start_.locate,
+          .deposit = now.deposit - times_at_start_.deposit,
+          .sample = now.sample - times_at_start_.sample,
+          .messages = now.messages - times_at_start_.messages,
+          .force = now.force - times_at_start_.force};
+}
+
+double GasDriver::seconds() const {
+  const coupling::CouplingTimes t = coupling_times();
+  return t.gas + t.locate + t.deposit + t.sample + t.messages + t.force + fields_seconds_;
+}
+
+std::string GasDriver::end_run(RunTimes times) {
+  running_ = false;
+  times.coupling = coupling_times();
+  times.fields = fields_seconds_;
+  double particle_steps = particle_steps_;
+  MPI_Allreduce(MPI_IN_PLACE, &particle_steps, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return run_report(mean_over_ranks(times, comm_), largest_, particle_steps);
+}
+
+/// Mean dynamic pressure on the first inlet of the case minus that on its first outlet [Pa].
+double GasDriver::pressure_drop() {
+  const auto first = [&](cfd::BoundaryKind kind) -> const cfd::BoundaryCondition* {
+    for (const cfd::BoundaryCondition& b : gas_case_.boundaries)
+      if (b.kind == kind)
+        return &b;
+    return nullptr;
+  };
+  const auto *inlet = first(cfd::BoundaryKind::inlet), *outlet = first(cfd::BoundaryKind::outlet);
+  if (!inlet || !outlet)
+    return 0;
+  return coupler_->gas().boundary_pressure(inlet->name) -
+         coupler_->gas().boundary_pressure(outlet->name);
+}
+
+double GasDriver::value(int n) {
+  if (!coupler_)
+    return 0; // before the first run
+  if (n == 0)
+    return pressure_drop();
+  const coupling::ExchangeReport& report = coupler_->report();
+  const coupling::CouplingTimes& times = coupler_->times();
+  const cfd::Balance& balance = coupler_->gas().balance();
+  const std::array<double, values - 1> others{
+      report.drag.x,
+      report.drag.y,
+      report.drag.z,
+      report.pressure_force.x,
+      report.pressure_force.y,
+      report.pressure_force.z,
+      report.void_fraction_min,
+      report.particle_volume,
+      report.volume_residual,
+      report.momentum_residual,
+      relative_continuity_residual(report.gas),
+      relative_momentum_residual(balance),
+      coupler_->gas().time(),
+      report.gas.courant,
+      double(report.particles),
+      double(report.outside),
+      double(report.law_out_of_range),
+      report.slip_reynolds_max,
+      double(report.gas.pressure_iterations),
+      double(coupler_->gas().steps()),
+      balance.momentum.x,
+      balance.momentum.y,
+      balance.momentum.z,
+      times.gas,
+      times.locate + times.deposit + times.sample + times.messages,
+      times.force,
+      report.budget_residual,
+      report.stiffness_max,
+      report.heat_rate,
+      relative_heat_residual(balance),
+      report.heat_residual,
+      report.heat_stiffness_max,
+      double(report.nusselt_out_of_range),
+      balance.heat_convection,
+      balance.heat_conduction,
+  };
+  return others[std::size_t(n) - 1];
+}
+
+bool GasDriver::modify(std::string_view key, const char* value) {
+  if (key == "couple_every")
+    clock_.set_every(read_couple_every(value));
+  else if (key == "progress")
+    progress_.set_every(read_progress_every(value));
+  else
+    return false;
+  return true;
+}
+
+void GasDriver::write_state(std::FILE* file) const {
+  CoupleState state;
+  if (coupler_) {
+    state.time_step = clock_.time_step();
+    state.steps_left = clock_.steps_left();
+    state.owed = clock_.owed();
+    state.next_fields_time = next_fields_time_;
+    state.fields_written = fields_ ? fields_->next() : 0;
+    state.coupler = coupler_->save();
+  } else if (restored_) {
+    state = *restored_;
+  }
+  write_couple_state(state, file, comm_);
+}
+
+void GasDriver::read_state(const char* block) {
+  CoupleState state = read_couple_state(block, comm_);
+  if (state.time_step > 0) // else written before the first run: nothing to continue
+    restored_ = std::move(state);
+}
+
+} // namespace granflux::driver

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "fix_styles.hpp"
+
+#include "fix_couple.hpp"
+
+namespace granflux::lammps {
+
+LAMMPS_NS::Fix* create_couple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
+  return new FixCouple(lammps, narg, arg); // owned by Modify
+}
+
+} // namespace granflux::lammps

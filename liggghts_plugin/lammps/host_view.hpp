@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fmt_of_lammps.hpp"
+
+#include <lammps/pointers.h>
+
+#include "driver/host.hpp"
+#include "driver/particle_groups.hpp"
+#include "particle_rows.hpp"
+
+namespace granflux::lammps {
+
+/// LAMMPS as the gas sees it. Positions, velocities and forces are LAMMPS' own arrays; the fluid
+/// states are rows of the fix that has this view.
+class HostView : public driver::Host, private LAMMPS_NS::Pointers {
+public:
+  /// group_bit: the particles that are coupled. held_bit: further particles held in place, or 0.
+  HostView(LAMMPS_NS::LAMMPS* lammps, ParticleRows& fluid, int group_bit, int held_bit);
+
+  /// The fixes may have changed between runs: call before each.
+  void find_held();
+
+  driver::Scene scene() override;
+  coupling::ParticleView particles(bool with_id) override;
+  void clear_frozen_forces() override;
+  /// Never asked: fix granflux/couple refuses a gas with a temperature here.
+  double step_temperatures() override { return 0; }
+  void say(const std::string& text) override;
+
+private:
+  ParticleRows& fluid_;
+  driver::ParticleGroups groups_;
+  std::vector<std::int64_t> id_;
+};
+
+} // namespace granflux::lammps

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// LAMMPS with the fixes of GranFlux: takes every option of `lmp` and the same scripts.
+
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <mpi.h>
+
+#include "fmt_of_lammps.hpp"
+
+#include <lammps/comm.h>
+#include <lammps/input.h>
+#include <lammps/lammps.h>
+
+#include <granflux/cfd/error.hpp>
+#include <granflux/version.hpp>
+
+#include "driver/command_line.hpp"
+#include "driver/thread_placement.hpp"
+
+namespace {
+
+void print_version() {
+  fmt::print("granflux_lammps {}, revision {}\ncompiler: {}\nflags: {}\nhost: LAMMPS {}\n",
+             granflux::version, granflux::revision, granflux::compiler, granflux::compiler_flags,
+             GRANFLUX_LAMMPS_RELEASE);
+}
+
+/// LAMMPS looks at the environment for the number of threads, at its start and after `clear`.
+void pass_on_threads(int threads) {
+  setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+}
+
+void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
+  const std::string advice = granflux::driver::thread_placement_advice(lammps.world);
+  if (lammps.comm->me == 0 && lammps.screen)
+    fmt::print(lammps.screen, "{}", advice);
+}
+
+void stop(std::string_view reason) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0)
+    fmt::print(stderr, "ERROR: {}\n", reason);
+  MPI_Finalize();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "-version") {
+    print_version();
+    return 0;
+  }
+  MPI_Init(&argc, &argv);
+  try {
+    pass_on_threads(granflux::driver::take_threads(argc, argv));
+  } catch (const granflux::ConfigError& error) {
+    stop(error.what());
+    return 1;
+  }
+  {
+    LAMMPS_NS::LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
+    advise_on_threads(lammps);
+    lammps.input->file();
+  }
+  MPI_Finalize();
+}

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "driver/scene.hpp"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace granflux::lammps {
+
+driver::Script script_of(LAMMPS_NS::LAMMPS& lammps);
+
+/// Collective.
+driver::Scene scene_of(LAMMPS_NS::LAMMPS& lammps);
+
+} // namespace granflux::lammps
