@@ -16,6 +16,8 @@ namespace {
 
 /// In units of a cell: how far outside a point may seem by rounding.
 constexpr double rounding = 1e-9;
+/// The same of the planes of faces, which are in single precision.
+constexpr double plane_rounding = 1e-5;
 
 /// Low and high corner of a box.
 struct Box {
@@ -86,7 +88,7 @@ void BlockLocator::gather_nodes(const cfd::Mesh& mesh) {
   for (int id = 0; id < int(mesh.blocks.size()); ++id) {
     const cfd::BlockInfo& info = mesh.blocks[std::size_t(id)];
     const auto [ni, nj, nk] = info.cells;
-    Nodes& nodes = blocks_.emplace_back(Nodes{info.cells, stack.first(id), {}});
+    Nodes& nodes = blocks_.emplace_back(Nodes{info.cells, stack.first(id), {}, 0});
     nodes.at.resize(std::size_t(ni + 1) * std::size_t(nj + 1) * std::size_t(nk + 1));
     if (info.rank == rank) {
       auto to = nodes.at.begin();
@@ -137,6 +139,77 @@ std::array<Vec3, 8> BlockLocator::corners(const Cell& c) const {
   return node;
 }
 
+void BlockLocator::find_faces(Cell& cell, const std::array<Vec3, 8>& node) {
+  for (const Vec3& x : node)
+    cell.middle += 0.125 * x;
+  auto face = cell.faces.begin();
+  for (int direction = 0; direction < 3; ++direction)
+    for (const bool high : {false, true}) {
+      // The nodes of this side, round it.
+      const int step = 1 << direction, a = direction == 0 ? 2 : 1, b = direction == 2 ? 2 : 4;
+      const int first = high ? step : 0;
+      const std::array side{first, first + a, first + a + b, first + b};
+      const Vec3 &p = node[std::size_t(side[0])], &q = node[std::size_t(side[1])],
+                 &r = node[std::size_t(side[2])], &s = node[std::size_t(side[3])];
+      Vec3 normal = cross(r - p, s - q);
+      if (dot(normal, p + q + r + s - 4 * cell.middle) < 0)
+        normal = -1 * normal;
+      const double length = norm(normal);
+      normal = length > 0 ? normal / length : Vec3{};
+      const auto height = [&](int n) { return dot(normal, node[std::size_t(n)] - cell.middle); };
+      double inner = height(side[0]), outer = inner, size = 0;
+      for (const int n : side)
+        inner = std::min(inner, height(n));
+      for (int n = 0; n < 8; ++n) {
+        outer = std::max(outer, height(n));
+        size = std::max(size, norm(node[std::size_t(n)] - cell.middle));
+      }
+      *face++ = {.normal = {float(normal.x), float(normal.y), float(normal.z)},
+                 .inner = float(inner - plane_rounding * size),
+                 .outer = float(outer + plane_rounding * size)};
+    }
+  // A cell whose middle is not before all its faces: none of its points is told by planes.
+  if (std::ranges::any_of(cell.faces, [](const Face& f) { return !(f.inner > 0); }))
+    for (Face& f : cell.faces)
+      f.inner = -std::numeric_limits<float>::infinity();
+}
+
+/// What lies before the inner planes of all faces is convex, holds the middle and no part of the
+/// surface: it is inside.
+BlockLocator::Verdict BlockLocator::judge(const Cell& cell, const Vec3& x) {
+  const Vec3 away = x - cell.middle;
+  const std::array at{float(away.x), float(away.y), float(away.z)};
+  bool inside = true;
+  for (const Face& f : cell.faces) {
+    const float height = f.normal[0] * at[0] + f.normal[1] * at[1] + f.normal[2] * at[2];
+    if (height > f.outer)
+      return Verdict::outside;
+    inside = inside && height < f.inner;
+  }
+  return inside ? Verdict::inside : Verdict::open;
+}
+
+const BlockLocator::Cell& BlockLocator::cell_of(const Index3& in_stack) const {
+  const Nodes& block = blocks_[std::size_t(block_of_layer_[std::size_t(in_stack[2])])];
+  const auto [ni, nj, nk] = block.cells;
+  return cells_[block.first_cell + std::size_t(in_stack[0]) +
+                std::size_t(ni) * (std::size_t(in_stack[1]) +
+                                   std::size_t(nj) * std::size_t(in_stack[2] - block.first))];
+}
+
+std::optional<Index3> BlockLocator::cell(const Vec3& x, const Index3& near) const {
+  return judge(cell_of(near), x) == Verdict::inside ? near : cell(x);
+}
+
+bool BlockLocator::surely_within(const Index3& cell, const Vec3& centre, double radius) const {
+  const Cell& c = cell_of(cell);
+  const Vec3 away = centre - c.middle;
+  return std::ranges::all_of(c.faces, [&](const Face& f) {
+    const Vec3 normal{f.normal[0], f.normal[1], f.normal[2]};
+    return dot(normal, away) + radius < double(f.inner);
+  });
+}
+
 /// The bin of a point, or the one next to it.
 Index3 BlockLocator::bin(const Vec3& x) const {
   Index3 b;
@@ -150,18 +223,24 @@ Index3 BlockLocator::bin(const Vec3& x) const {
 
 /// As many bins as cells, nearly cubes; every cell in those that the box around it touches.
 void BlockLocator::fill_bins() {
-  for (int b = 0; b < int(blocks_.size()); ++b)
+  for (int b = 0; b < int(blocks_.size()); ++b) {
+    blocks_[std::size_t(b)].first_cell = cells_.size();
+    block_of_layer_.insert(block_of_layer_.end(), std::size_t(blocks_[std::size_t(b)].cells[2]), b);
     for (int k = 0; k < blocks_[std::size_t(b)].cells[2]; ++k)
       for (int j = 0; j < blocks_[std::size_t(b)].cells[1]; ++j)
         for (int i = 0; i < blocks_[std::size_t(b)].cells[0]; ++i) {
-          Cell& c = cells_.emplace_back(Cell{b, {i, j, k}, {}, {}});
+          Cell& c = cells_.emplace_back();
+          c.block = b;
+          c.at = {i, j, k};
           Box around = nothing();
           for (const Vec3& x : corners(c))
             include(around, x);
+          find_faces(c, corners(c));
           const Vec3 margin = rounding * (around.high - around.low);
           c.low = around.low - margin;
           c.high = around.high + margin;
         }
+  }
   const Vec3 size = extent_.high - extent_.low;
   const double edge = std::cbrt(size.x * size.y * size.z / double(cells_.size()));
   for (int d = 0; d < 3; ++d)
@@ -194,7 +273,10 @@ std::optional<Index3> BlockLocator::cell(const Vec3& x) const {
     const Cell& c = cells_[candidates_[n]];
     const bool near = c.low.x <= x.x && x.x <= c.high.x && c.low.y <= x.y && x.y <= c.high.y &&
                       c.low.z <= x.z && x.z <= c.high.z;
-    if (near && holds(corners(c), x))
+    if (!near)
+      continue;
+    const Verdict verdict = judge(c, x);
+    if (verdict == Verdict::inside || (verdict == Verdict::open && holds(corners(c), x)))
       return Index3{c.at[0], c.at[1], c.at[2] + blocks_[std::size_t(c.block)].first};
   }
   return std::nullopt;

@@ -593,6 +593,9 @@ const ExchangeReport& Coupler::report() const {
 const CouplingTimes& Coupler::times() const {
   return impl_->times;
 }
+long Coupler::numbers_sent() const {
+  return impl_->exchange.numbers_sent();
+}
 cfd::GasSolver& Coupler::gas() {
   return impl_->gas;
 }

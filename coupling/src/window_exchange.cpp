@@ -232,6 +232,7 @@ void WindowExchange::deposit(std::span<const double> from, std::span<cfd::BlockF
     });
     MPI_Isend(owner.buffer.data(), int(owner.buffer.size()), MPI_DOUBLE, owner.rank, deposit_tag,
               mesh_.comm, &sends.emplace_back());
+    numbers_sent_ += long(owner.buffer.size());
   }
   const auto add = [&](int b, std::ptrdiff_t in_block, const double* values, std::size_t n) {
     for (std::size_t f = 0; f < each; ++f) {
@@ -289,6 +290,7 @@ void WindowExchange::sample(std::span<const cfd::BlockFields* const> from, std::
     });
     MPI_Isend(user.buffer.data(), int(user.buffer.size()), MPI_DOUBLE, user.rank, sample_tag,
               mesh_.comm, &sends.emplace_back());
+    numbers_sent_ += long(user.buffer.size());
   }
   for (std::size_t o = 0; o < owners_.size(); ++o) {
     const Partner& owner = owners_[o];

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/core.h>
+#include <omp.h>
 
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/read_gas_case.hpp>
@@ -124,6 +125,7 @@ void GasDriver::begin_run(RunSteps steps) {
 
 void GasDriver::start_timers() {
   times_at_start_ = coupler_->times();
+  numbers_sent_at_start_ = coupler_->numbers_sent();
   fields_seconds_ = particle_steps_ = 0;
   progress_.start(steps_.first, steps_.last, MPI_Wtime());
 }
@@ -212,7 +214,17 @@ std::string GasDriver::end_run(RunTimes times) {
   times.fields = fields_seconds_;
   double particle_steps = particle_steps_;
   MPI_Allreduce(MPI_IN_PLACE, &particle_steps, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return run_report(mean_over_ranks(times, comm_), largest_, particle_steps);
+  return run_report(mean_over_ranks(times, comm_), largest_, particle_steps) +
+         division_report(gas_share(), comm_);
+}
+
+GasShare GasDriver::gas_share() const {
+  GasShare share{.threads = omp_get_max_threads()};
+  for (const cfd::Block& block : coupler_->mesh().local)
+    share.cells += double(block.layout.cells[0]) * block.layout.cells[1] * block.layout.cells[2];
+  const auto steps = double(std::max(1L, largest_.exchanges));
+  share.numbers_sent = double(coupler_->numbers_sent() - numbers_sent_at_start_) / steps;
+  return share;
 }
 
 /// Mean dynamic pressure on the first inlet of the case minus that on its first outlet [Pa].

@@ -79,6 +79,7 @@ private:
   void apply(Host& host, double share);
   void write_fields();
   [[nodiscard]] coupling::CouplingTimes coupling_times() const;
+  [[nodiscard]] GasShare gas_share() const;
   [[nodiscard]] double pressure_drop();
 
   MPI_Comm comm_;
@@ -100,6 +101,7 @@ private:
   RunSteps steps_;
   bool warned_of_stiffness_ = false; ///< in this or an earlier run
   coupling::CouplingTimes times_at_start_;
+  long numbers_sent_at_start_ = 0;
   double fields_seconds_ = 0;
   double particle_steps_ = 0; // this rank
   LargestResiduals largest_;

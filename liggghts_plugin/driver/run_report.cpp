@@ -4,9 +4,12 @@
 #include "run_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/core.h>
+
+#include "rank_spread.hpp"
 
 namespace granflux::driver {
 
@@ -57,6 +60,19 @@ void LargestResiduals::add(const coupling::ExchangeReport& report, const cfd::Ba
   outside = std::max(outside, report.outside);
   law_out_of_range = std::max(law_out_of_range, report.law_out_of_range);
   ++exchanges;
+}
+
+std::string division_report(const GasShare& mine, MPI_Comm comm) {
+  constexpr std::array names{"gas cells a rank", "gas cells a thread",
+                             "numbers sent a rank and coupling step"};
+  const RankSpread spread(std::array{mine.cells, mine.cells / mine.threads, mine.numbers_sent},
+                          comm);
+  std::string text = fmt::format("granflux: {:<36}{:>11}{:>9}{:>9}{:>11}\n",
+                                 "gas, divided by blocks", "mean", "least", "most", "most/mean");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += fmt::format("  {:<44}{:>11.0f}{:>9.0f}{:>9.0f}{:>11.2f}\n", names[k], spread.mean[k],
+                        spread.least[k], spread.most[k], spread.most_over_mean(k));
+  return text;
 }
 
 std::string run_report(const RunTimes& times, const LargestResiduals& largest,

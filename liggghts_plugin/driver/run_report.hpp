@@ -44,6 +44,16 @@ double relative_continuity_residual(const cfd::StepReport& gas);
 double relative_momentum_residual(const cfd::Balance& balance);
 double relative_heat_residual(const cfd::Balance& balance);
 
+/// What one rank has of the gas, and what of it crosses between ranks.
+struct GasShare {
+  double cells = 0;
+  int threads = 1;
+  double numbers_sent =
+      0; ///< a coupling step, for void fraction, exchange terms and gas at particles
+};
+/// How evenly the gas is divided. Collective.
+std::string division_report(const GasShare& mine, MPI_Comm comm);
+
 /// The table at the end of a run. particle_steps: sum over steps of the particles of all ranks.
 std::string run_report(const RunTimes& times, const LargestResiduals& largest,
                        double particle_steps);

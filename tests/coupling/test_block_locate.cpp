@@ -79,6 +79,53 @@ TEST(BlockLocate, FindsTheCellOfAnyPointInside) {
   expect_points_found(ring());
 }
 
+/// A drum whose rows of cells wind about the axis: faces that are not flat.
+cfd::Grid twisted_drum() {
+  cfd::Grid grid = drum(false);
+  for (cfd::GridBlock& block : grid.blocks)
+    block.node = [straight = block.node](int i, int j, int k) {
+      const Vec3 x = straight(i, j, k);
+      const double angle = 0.8 * x.z;
+      return Vec3{std::cos(angle) * x.x - std::sin(angle) * x.y,
+                  std::sin(angle) * x.x + std::cos(angle) * x.y, x.z};
+    };
+  return grid;
+}
+
+TEST(BlockLocate, FacesThatAreNotFlat) {
+  expect_points_found(twisted_drum());
+}
+
+// The quick ways must not differ from the thorough one, points on and near faces included.
+TEST(BlockLocate, LookingNearbyChangesNothing) {
+  for (const cfd::Grid& grid : {drum(true), ring(), twisted_drum()}) {
+    const cfd::Mesh mesh = make_mesh(grid, MPI_COMM_WORLD);
+    const BlockLocator locator(mesh);
+    const BlockStack stack(mesh.blocks);
+    int within = 0;
+    for_each_cell(grid, [&](int b, const Index3& c) {
+      const Index3 here{c[0], c[1], c[2] + stack.first(b)};
+      const auto at = [&](double i, double j, double k) {
+        return point_in(grid.blocks[std::size_t(b)], c, {i, j, k});
+      };
+      for (const double i : {-0.3, -1e-7, 0., 1e-7, 0.4, 1., 1 + 1e-12, 1.2})
+        for (const double k : {0., 0.5, 1 - 1e-6, 1.1}) {
+          const Vec3 x = at(i, 0.9, k);
+          EXPECT_EQ(locator.cell(x, here), locator.cell(x));
+        }
+      const Vec3 middle = at(0.5, 0.5, 0.5);
+      const double to_face = norm(middle - at(0.5, 0.5, 0));
+      EXPECT_FALSE(locator.surely_within(here, middle, 1.001 * to_face));
+      if (locator.surely_within(here, middle, 0.2 * to_face)) {
+        ++within;
+        for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0.6, 0.8, 0}})
+          EXPECT_EQ(locator.cell(middle + 0.2 * to_face * way), here);
+      }
+    });
+    EXPECT_GT(within, 100);
+  }
+}
+
 TEST(BlockLocate, NodesAndFacesBelongToOneCell) {
   const cfd::Grid grid = drum(true);
   const cfd::Mesh mesh = make_mesh(grid, MPI_COMM_WORLD);

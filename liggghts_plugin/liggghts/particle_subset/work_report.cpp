@@ -7,24 +7,11 @@
 
 #include <fmt/core.h>
 
+#include "driver/rank_spread.hpp"
+
 namespace granflux::particle_subset {
 
 namespace {
-
-/// Over the ranks.
-template <std::size_t n> struct Spread {
-  std::array<double, n> least, mean, most;
-
-  Spread(const std::array<double, n>& mine, MPI_Comm comm) {
-    int ranks = 1;
-    MPI_Comm_size(comm, &ranks);
-    MPI_Allreduce(mine.data(), least.data(), int(n), MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(mine.data(), mean.data(), int(n), MPI_DOUBLE, MPI_SUM, comm);
-    MPI_Allreduce(mine.data(), most.data(), int(n), MPI_DOUBLE, MPI_MAX, comm);
-    for (double& value : mean)
-      value /= ranks;
-  }
-};
 
 double ratio(double a, double b) {
   return b > 0 ? a / b : 0;
@@ -47,9 +34,10 @@ std::string work_report(const WorkTimes& times, const WorkLoad& load, MPI_Comm c
 
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
-  const Spread time(seconds, comm);
+  const driver::RankSpread time(seconds, comm);
   // A thread's share is its rank's, divided by number.
-  const Spread count(std::array{load.particles, load.ghosts, load.particles / load.threads}, comm);
+  const driver::RankSpread count(
+      std::array{load.particles, load.ghosts, load.particles / load.threads}, comm);
   const double particle_steps = count.mean[0] * ranks * load.steps;
 
   std::string text = fmt::format(
@@ -61,14 +49,13 @@ std::string work_report(const WorkTimes& times, const WorkLoad& load, MPI_Comm c
   for (std::size_t part = 0; part < names.size(); ++part)
     text += fmt::format("  {:<20}{:>11.4f}{:>9.2f}{:>19.2f}{:>15.2f}\n", names[part],
                         time.mean[part], 100 * ratio(time.mean[part], time.mean[total]),
-                        1e9 * ratio(time.mean[part], particle_steps),
-                        ratio(time.most[part], time.mean[part]));
+                        1e9 * ratio(time.mean[part], particle_steps), time.most_over_mean(part));
   text +=
       fmt::format("  {:<20}{:>11}{:>9}{:>19}{:>15}\n", "", "mean", "least", "most", "most/mean");
   constexpr std::array counted{"particles a rank", "ghosts a rank", "particles a thread"};
   for (std::size_t k = 0; k < counted.size(); ++k)
     text += fmt::format("  {:<20}{:>11.0f}{:>9.0f}{:>19.0f}{:>15.2f}\n", counted[k], count.mean[k],
-                        count.least[k], count.most[k], ratio(count.most[k], count.mean[k]));
+                        count.least[k], count.most[k], count.most_over_mean(k));
   return text;
 }
 

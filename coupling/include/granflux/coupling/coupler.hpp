@@ -103,6 +103,8 @@ public:
 
   [[nodiscard]] const ExchangeReport& report() const;
   [[nodiscard]] const CouplingTimes& times() const;
+  /// Numbers that this rank has sent to gas and particles of other ranks so far.
+  [[nodiscard]] long numbers_sent() const;
   [[nodiscard]] cfd::GasSolver& gas();
   [[nodiscard]] const cfd::Mesh& mesh() const;
   /// Of the gas grid.

@@ -30,6 +30,9 @@ public:
   /// Copies block fields to the windows above them: from.size() numbers a cell. Collective.
   void sample(std::span<const cfd::BlockFields* const> from, std::span<double> to);
 
+  /// Numbers that this rank has sent to others so far.
+  [[nodiscard]] long numbers_sent() const { return numbers_sent_; }
+
 private:
   /// Part of a frame over one block.
   struct Overlap {
@@ -70,6 +73,7 @@ private:
   bool bound_ = false;
   std::vector<Partner> owners_; ///< of blocks under this rank's window, by rank
   std::vector<Partner> users_;  ///< whose windows lie over this rank's blocks, by rank
+  long numbers_sent_ = 0;
 };
 
 } // namespace granflux::coupling

@@ -32,8 +32,8 @@ struct Divided {
     std::array<int, points> counts{};
     int found = 0;
     for (const Vec3& offset : offsets()) {
-      const auto cell =
-          locator.cell(particle.centre + particle.radius * offset).value_or(particle.cell);
+      const Vec3 point = particle.centre + particle.radius * offset;
+      const auto cell = find(locator, point, particle.cell).value_or(particle.cell);
       int slot = 0;
       while (slot < found && cells[std::size_t(slot)] != cell)
         ++slot;
@@ -57,8 +57,15 @@ private:
     return lattice.cell(particle.centre - half) == particle.cell &&
            lattice.cell(particle.centre + half) == particle.cell;
   }
-  /// Cells that are no boxes: the points tell.
-  static bool inside_one_cell(const BlockLocator&, const ParticlePlace&) { return false; }
+  static bool inside_one_cell(const BlockLocator& blocks, const ParticlePlace& particle) {
+    return blocks.surely_within(particle.cell, particle.centre, particle.radius);
+  }
+  static auto find(const LatticeLocator& lattice, const Vec3& x, const cfd::Index3&) {
+    return lattice.cell(x);
+  }
+  static auto find(const BlockLocator& blocks, const Vec3& x, const cfd::Index3& near) {
+    return blocks.cell(x, near);
+  }
 
   /// Root mean square radius of the shell between the spheres that hold `inner` and `outer` of the
   /// 29 parts: sqrt(3/5 (b^5 - a^5) / (b^3 - a^3)).
