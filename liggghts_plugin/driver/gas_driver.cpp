@@ -214,7 +214,7 @@ std::string GasDriver::end_run(RunTimes times) {
   times.fields = fields_seconds_;
   double particle_steps = particle_steps_;
   MPI_Allreduce(MPI_IN_PLACE, &particle_steps, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return run_report(mean_over_ranks(times, comm_), largest_, particle_steps) +
+  return run_report(over_ranks(times, comm_), largest_, particle_steps) +
          division_report(gas_share(), comm_);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -21,15 +22,16 @@ double relative(double residual, double scale) {
 
 } // namespace
 
-RunTimes mean_over_ranks(RunTimes times, MPI_Comm comm) {
-  static_assert(sizeof(RunTimes) % sizeof(double) == 0, "RunTimes must hold doubles only");
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  auto* values = reinterpret_cast<double*>(&times);
-  constexpr int count = sizeof(RunTimes) / sizeof(double);
-  MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_SUM, comm);
-  std::for_each_n(values, count, [&](double& value) { value /= ranks; });
-  return times;
+RunTimesOverRanks over_ranks(RunTimes times, MPI_Comm comm) {
+  const coupling::CouplingTimes& c = times.coupling;
+  times.exchange = c.locate + c.deposit + c.messages + c.sample;
+  times.rest = times.total -
+               (c.gas + times.exchange + c.force + times.fields + times.contacts +
+                times.other_fixes + times.neighbour_lists + times.communication + times.output);
+  using Row = std::array<double, sizeof(RunTimes) / sizeof(double)>;
+  const RankSpread spread(std::bit_cast<Row>(times), comm);
+  return {std::bit_cast<RunTimes>(spread.mean), std::bit_cast<RunTimes>(spread.least),
+          std::bit_cast<RunTimes>(spread.most)};
 }
 
 double relative_continuity_residual(const cfd::StepReport& gas) {
@@ -75,35 +77,33 @@ std::string division_report(const GasShare& mine, MPI_Comm comm) {
   return text;
 }
 
-std::string run_report(const RunTimes& times, const LargestResiduals& largest,
+std::string run_report(const RunTimesOverRanks& times, const LargestResiduals& largest,
                        double particle_steps) {
-  const coupling::CouplingTimes& c = times.coupling;
-  const double exchange = c.locate + c.deposit + c.messages + c.sample;
-  const double known = c.gas + exchange + c.force + times.fields + times.contacts +
-                       times.other_fixes + times.neighbour_lists + times.communication +
-                       times.output;
-  std::string text = fmt::format("\ngranflux: {:<34}{:>11}{:>9}{:>19}\n",
-                                 "time of the run, mean of ranks", "s", "%", "ns/particle-step");
-  const auto row = [&](const char* name, double seconds) {
+  std::string text = fmt::format("\ngranflux: {:<30}{:>11}{:>9}{:>19}{:>12}{:>12}\n",
+                                 "time of the run, mean of ranks", "s", "%", "ns/particle-step",
+                                 "least, s", "most, s");
+  const auto row = [&](const char* name, auto seconds_of) {
+    const double mean = seconds_of(times.mean);
     text +=
-        fmt::format("  {:<42}{:>11.4f}{:>9.2f}{:>19.2f}\n", name, seconds,
-                    100 * relative(seconds, times.total), 1e9 * relative(seconds, particle_steps));
+        fmt::format("  {:<38}{:>11.4f}{:>9.2f}{:>19.2f}{:>12.4f}{:>12.4f}\n", name, mean,
+                    100 * relative(mean, times.mean.total), 1e9 * relative(mean, particle_steps),
+                    seconds_of(times.least), seconds_of(times.most));
   };
-  row("gas", c.gas);
-  row("exchange", exchange);
-  row("  locate", c.locate);
-  row("  deposit", c.deposit);
-  row("  messages", c.messages);
-  row("  sample", c.sample);
-  row("fluid force", c.force);
-  row("gas fields", times.fields);
-  row("contacts", times.contacts);
-  row("walls, integration, other fixes", times.other_fixes);
-  row("neighbour lists", times.neighbour_lists);
-  row("communication", times.communication);
-  row("output", times.output);
-  row("rest", times.total - known);
-  row("total", times.total);
+  row("gas", [](const RunTimes& t) { return t.coupling.gas; });
+  row("exchange", [](const RunTimes& t) { return t.exchange; });
+  row("  locate", [](const RunTimes& t) { return t.coupling.locate; });
+  row("  deposit", [](const RunTimes& t) { return t.coupling.deposit; });
+  row("  messages", [](const RunTimes& t) { return t.coupling.messages; });
+  row("  sample", [](const RunTimes& t) { return t.coupling.sample; });
+  row("fluid force", [](const RunTimes& t) { return t.coupling.force; });
+  row("gas fields", [](const RunTimes& t) { return t.fields; });
+  row("contacts", [](const RunTimes& t) { return t.contacts; });
+  row("walls, integration, other fixes", [](const RunTimes& t) { return t.other_fixes; });
+  row("neighbour lists", [](const RunTimes& t) { return t.neighbour_lists; });
+  row("communication", [](const RunTimes& t) { return t.communication; });
+  row("output", [](const RunTimes& t) { return t.output; });
+  row("rest", [](const RunTimes& t) { return t.rest; });
+  row("total", [](const RunTimes& t) { return t.total; });
 
   text += fmt::format("granflux: largest of {} coupling steps\n", largest.exchanges);
   const auto value = [&](const char* name, double v) {

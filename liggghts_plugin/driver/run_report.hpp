@@ -8,15 +8,21 @@
 
 namespace granflux::driver {
 
-/// Seconds of one run, mean over the ranks once reduced.
+/// Seconds of one run on one rank.
 struct RunTimes {
   coupling::CouplingTimes coupling;
   double fields = 0; ///< writing gas fields
   double contacts = 0, other_fixes = 0, neighbour_lists = 0, communication = 0, output = 0;
   double total = 0;
+  double exchange = 0, rest = 0; ///< what follows from the others: over_ranks() sets it
 };
-/// Mean over the ranks. Collective.
-RunTimes mean_over_ranks(RunTimes times, MPI_Comm comm);
+/// Part by part over the ranks: a rank that comes late to gas and exchange finds the others waiting
+/// there, so the least of their times is what they take by themselves.
+struct RunTimesOverRanks {
+  RunTimes mean, least, most;
+};
+/// Collective.
+RunTimesOverRanks over_ranks(RunTimes times, MPI_Comm comm);
 
 /// Largest values over the coupling steps of one run.
 struct LargestResiduals {
@@ -55,7 +61,7 @@ struct GasShare {
 std::string division_report(const GasShare& mine, MPI_Comm comm);
 
 /// The table at the end of a run. particle_steps: sum over steps of the particles of all ranks.
-std::string run_report(const RunTimes& times, const LargestResiduals& largest,
+std::string run_report(const RunTimesOverRanks& times, const LargestResiduals& largest,
                        double particle_steps);
 
 } // namespace granflux::driver

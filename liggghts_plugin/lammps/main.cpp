@@ -20,6 +20,7 @@
 #include <granflux/version.hpp>
 
 #include "driver/command_line.hpp"
+#include "driver/peak_memory.hpp"
 #include "driver/thread_placement.hpp"
 
 namespace {
@@ -39,6 +40,13 @@ void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
   const std::string advice = granflux::driver::thread_placement_advice(lammps.world);
   if (lammps.comm->me == 0 && lammps.screen)
     fmt::print(lammps.screen, "{}", advice);
+}
+
+void report_memory(LAMMPS_NS::LAMMPS& lammps) {
+  const std::string line = granflux::driver::peak_memory(lammps.world);
+  for (FILE* const file : {lammps.screen, lammps.logfile})
+    if (lammps.comm->me == 0 && file)
+      fmt::print(file, "\n{}", line);
 }
 
 void stop(std::string_view reason) {
@@ -67,6 +75,7 @@ int main(int argc, char** argv) {
     LAMMPS_NS::LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     advise_on_threads(lammps);
     lammps.input->file();
+    report_memory(lammps);
   }
   MPI_Finalize();
 }

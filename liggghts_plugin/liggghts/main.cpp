@@ -21,6 +21,7 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/version.hpp>
 
+#include "driver/peak_memory.hpp"
 #include "driver/thread_placement.hpp"
 #include "launch_options.hpp"
 #include "register_styles.hpp"
@@ -57,6 +58,13 @@ void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
     fmt::print(lammps.screen, "{}", advice);
 }
 
+void report_memory(LAMMPS_NS::LAMMPS& lammps) {
+  const std::string line = granflux::driver::peak_memory(lammps.world);
+  for (FILE* const file : {lammps.screen, lammps.logfile})
+    if (lammps.comm->me == 0 && file)
+      fmt::print(file, "\n{}", line);
+}
+
 void stop(std::string_view reason) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -86,6 +94,7 @@ int main(int argc, char** argv) {
     advise_on_threads(lammps);
     granflux::liggghts::register_styles(lammps);
     lammps.input->file();
+    report_memory(lammps);
   }
   MPI_Finalize();
 }

@@ -9,9 +9,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from measure import GRANFLUX, ROOT, loop_seconds, seconds_by_part, spread, start, timed_start
+from measure import GRANFLUX, ROOT, loop_seconds, measured_start, seconds_by_part, spread, start, timed_start
 
 BEDS = {"quick": (96, 96, 36), "paper": (384, 384, 9), "larger": (768, 768, 9)}  # particles each way
+QUICK_STEPS = {"quick": 100, "paper": 50, "larger": 25}
 KILNS = {"section": 0.01524, "full": 0.0762}  # length, m
 GRIDS = {"x": (2, 1, 1), "y": (1, 2, 1), "z": (1, 1, 2)}
 AUTOMATIC = ("*", "*", "*")
@@ -108,6 +109,20 @@ def compare(scene, steps, rounds, lammps):
     }
 
 
+def memory_per_particle(folder, cells):
+    """Bytes by which two beds differ, over the particles by which they do."""
+    nx, ny, nz = cells
+    fewer, more = (Scene(folder, "in.bed", nx=nx, ny=ny, nz=layers) for layers in (nz // 3, nz))
+    found = {}
+    for name, program, options in (("liggghts", "liggghts", []), ("lmp", "lmp", []),
+                                   ("granflux, 1 thread", GRANFLUX, ["-threads", "1"]),
+                                   ("granflux, 2 threads", GRANFLUX, ["-threads", "2"])):
+        bytes_ = [measured_start(folder, program, *options, *scene.words(program, (1, 1, 1), steps=20)).memory
+                  for scene in (fewer, more)]
+        found[name] = round((bytes_[1] - bytes_[0]) / (nx * ny * (nz - nz // 3)))
+    return found
+
+
 def dem(quick, bed, kiln):
     result = {}
     with tempfile.TemporaryDirectory() as folder:
@@ -117,8 +132,9 @@ def dem(quick, bed, kiln):
         if bed != "none":
             nx, ny, nz = BEDS[bed]
             scene = Scene(folder, "in.bed", nx=nx, ny=ny, nz=nz)
-            result["large bed"] = compare(scene, steps=100 if quick else 200,
+            result["large bed"] = compare(scene, steps=QUICK_STEPS[bed] if quick else 200,
                                           rounds=3 if quick else 5, lammps=True)
+            result["memory of a particle, bytes"] = memory_per_particle(folder, BEDS["quick"])
         if kiln != "none":
             scene = Scene(folder, "in.kiln", length=KILNS[kiln])
             print("packing the kiln ...", file=sys.stderr)

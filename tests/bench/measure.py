@@ -4,10 +4,10 @@
 
 import os
 import re
-import resource
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -23,23 +23,24 @@ class Run(NamedTuple):
     output: str
     wall: float  # s
     cpu: float  # s, user and system, of all processes of the run
-
-
-def children_seconds():
-    """Of processors, by all processes that were started and have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+    memory: int  # bytes, the most that one process of the run has held
 
 
 def measured_start(folder, program, *words, ranks=1, environment=ENVIRONMENT, wrapper=()):
     mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)]
     command = [*wrapper, *(mpirun if ranks > 1 else []), str(program), *words]
-    begin, before = time.monotonic(), children_seconds()
-    done = subprocess.run(command, cwd=folder, env=environment, text=True, capture_output=True)
-    wall, cpu = time.monotonic() - begin, children_seconds() - before
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return Run(done.stdout, wall, cpu)
+    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
+        begin = time.monotonic()
+        process = subprocess.Popen(command, cwd=folder, env=environment, text=True, stdout=output, stderr=errors)
+        _, status, used = os.wait4(process.pid, 0)
+        wall = time.monotonic() - begin
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        errors.seek(0)
+        text = output.read()
+        if process.returncode != 0:
+            sys.exit(f"{' '.join(command)} failed:\n{text[-2000:]}{errors.read()[-2000:]}")
+    return Run(text, wall, used.ru_utime + used.ru_stime, 1024 * used.ru_maxrss)
 
 
 def start(*args, **options):

@@ -26,7 +26,7 @@ def in_plane(count):
     return (x, count // x, 1)
 
 
-def work_of(scene, program, threads, grid, ranks, steps):
+def work_of(scene, program, threads, grid, ranks, steps, options=()):
     """({rank: seconds of its first thread and of the others, most first}, output) of a run. The MPI library has
     threads too, which hardly work."""
     file = scene.folder / "work.txt"
@@ -35,7 +35,7 @@ def work_of(scene, program, threads, grid, ranks, steps):
     words = scene.words(program, grid, steps=steps)
     # mpirun itself must not be counted: the ranks alone are told.
     preload = ["env", f"LD_PRELOAD={RANK_WORK}"]
-    options = ["-threads", str(threads)] if program == GRANFLUX else []
+    options = ["-threads", str(threads), *options] if program == GRANFLUX else []
     output = start(scene.folder, *preload, str(program), *options, *words, ranks=ranks, environment=environment)
     lines = [line.split() for line in file.read_text().splitlines()]
     return {int(rank): [float(first)] + sorted(map(float, others), reverse=True)[:threads - 1]
@@ -49,11 +49,12 @@ def load_of(output):
     return {"most_particles": most("Nlocal"), "most_ghosts": most("Nghost")}
 
 
-def seconds_a_step(scene, program, threads, grid, ranks, steps):
-    """Of every rank and thread; the start of the program falls out as what a short run takes."""
-    short, _ = work_of(scene, program, threads, grid, ranks, steps[0])
-    long, output = work_of(scene, program, threads, grid, ranks, steps[1])
-    between = 2 * (steps[1] - steps[0])  # the script runs them twice
+def seconds_a_step(scene, program, threads, grid, ranks, steps, runs, options=()):
+    """Of every rank and thread, where the script makes so many runs of `steps`; the start of the program falls out
+    as what a short run takes."""
+    short, _ = work_of(scene, program, threads, grid, ranks, steps[0], options)
+    long, output = work_of(scene, program, threads, grid, ranks, steps[1], options)
+    between = runs * (steps[1] - steps[0])
     found = [(b - a) / between for rank in long for a, b in zip(short[rank], long[rank])]
     return {"grid": " ".join(map(str, grid)), "slowest": max(found), "mean": sum(found) / len(found), **load_of(output)}
 
@@ -76,7 +77,7 @@ def scaling(quick, bed):
                 "granflux ranks, cut across the floor": (GRANFLUX, 1, grid, count),
                 "granflux threads": (GRANFLUX, count, (1, 1, 1), 1),
             }
-            table[count] = {name: seconds_a_step(scene, program, threads, cut, ranks, steps)
+            table[count] = {name: seconds_a_step(scene, program, threads, cut, ranks, steps, runs=2)
                             for name, (program, threads, cut, ranks) in ways.items()}
             print(count, {name: f"{found['slowest']:.4f} s" for name, found in table[count].items()}, file=sys.stderr)
     one = table[1]["liggghts, cut across the floor"]["slowest"]
