@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <string>
 #include <string_view>
 
@@ -112,8 +113,42 @@ void clear(LAMMPS_NS::Atom* atom, Range range) {
 } // namespace
 
 void Verlet::setup() {
-  LAMMPS_NS::Verlet::setup();
+  const std::time_t now = std::time(nullptr);
+  if (comm->me == 0)
+    for (FILE* file : {screen, logfile})
+      if (file)
+        std::fprintf(file, "Setting up run at %s\n", std::ctime(&now));
+  update->setupflag = 1;
+
+  atom->setup();
+  modify->setup_pre_exchange(); // what fixes keep by the old lists goes to the particles
+  domain->pbc();
+  domain->reset_box();
+  comm->setup();
+  if (neighbor->style)
+    neighbor->setup_bins();
+  comm->exchange();
+  if (atom->sortfreq > 0)
+    sort_particles();
+  comm->borders();
+  modify->setup_pre_neighbor();
+  neighbor->build();
+  neighbor->ncalls = 0;
+
+  ev_set(update->ntimestep);
+  force_clear();
+  modify->setup_pre_force(vflag);
+  if (pair_compute_flag)
+    force->pair->compute(eflag, vflag);
+  modify->setup(vflag);
+  output->setup();
+  update->setupflag = 0;
   set_up_ = true;
+}
+
+void Verlet::sort_particles() {
+  order_.sort(*atom, 0.5 * neighbor->cutneighmax);
+  atom->nextsort = (update->ntimestep / atom->sortfreq + 1) * atom->sortfreq;
 }
 
 void Verlet::run(int steps) {
@@ -223,7 +258,7 @@ void Verlet::exchange_and_build_lists(bigint now) {
     timer->stamp();
     comm->exchange();
     if (atom->sortfreq > 0 && now >= atom->nextsort)
-      atom->sort();
+      sort_particles();
     comm->borders();
     timer->stamp(TIME_COMM);
   }

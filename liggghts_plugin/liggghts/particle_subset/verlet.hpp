@@ -8,6 +8,7 @@
 
 #include "force_team.hpp"
 #include "own_work.hpp"
+#include "spatial_order.hpp"
 #include "work_report.hpp"
 
 namespace granflux::particle_subset {
@@ -28,6 +29,7 @@ public:
 
 private:
   void run_steps(int steps);
+  void sort_particles();
   void exchange_and_build_lists(LAMMPS_NS::bigint now);
   void compute_forces();
   bool add_part(OwnWork* part, double& seconds, auto&& otherwise);
@@ -40,6 +42,7 @@ private:
   std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
   bool owed_ = false;
   bool fixes_before_forces_look_at_none_ = false;
+  SpatialOrder order_;
   WorkLoad load_; // sums over the steps of a run
   ForceTeam team_;
 

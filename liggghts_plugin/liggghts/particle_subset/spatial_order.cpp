@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "spatial_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <liggghts/atom.h>
+
+#include <liggghts/atom_vec.h>
+
+namespace granflux::particle_subset {
+
+namespace {
+
+using Three = std::array<double, 3>;
+
+struct Extent {
+  Three low, size;
+};
+
+Extent extent_of(const LAMMPS_NS::Atom& atom) {
+  constexpr double most = std::numeric_limits<double>::max();
+  Three low{most, most, most}, high{-most, -most, -most};
+  for (int i = 0; i < atom.nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], atom.x[i][d]);
+      high[d] = std::max(high[d], atom.x[i][d]);
+    }
+  return {low, {high[0] - low[0], high[1] - low[1], high[2] - low[2]}};
+}
+
+/// Moves the particles, each with all that fixes keep of it: number k becomes what from[k] was.
+/// `from` is used up.
+void permute(LAMMPS_NS::Atom& atom, std::vector<int>& from) {
+  const int spare = atom.nlocal;
+  if (spare == atom.nmax)
+    atom.avec->grow(0);
+  for (int first = 0; first < spare; ++first) {
+    if (from[first] == first)
+      continue;
+    // One cycle: its first particle waits in the spare place until the cycle has come round.
+    atom.avec->copy(first, spare, 0);
+    int k = first;
+    while (from[k] != first) {
+      const int source = from[k];
+      atom.avec->copy(source, k, 0);
+      from[k] = k;
+      k = source;
+    }
+    atom.avec->copy(spare, k, 0);
+    from[k] = k;
+  }
+}
+
+} // namespace
+
+void SpatialOrder::sort(LAMMPS_NS::Atom& atom, double size) {
+  const int count = atom.nlocal;
+  if (count < 2 || !(size > 0))
+    return;
+  const Extent extent = extent_of(atom);
+
+  // In steps of a half octave: beds as long as wide do not turn round each time.
+  const auto length = [&](int d) { return std::lround(2 * std::log2(extent.size[d] / size + 1)); };
+  std::array<int, 3> axes{0, 1, 2}; // the quickest to change first
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) < length(b); });
+
+  constexpr double cells_a_particle = 16; // counting them takes less time than moving the particle
+  const auto cells_along = [&](int d) { return std::floor(extent.size[d] / size) + 1; };
+  while (cells_along(0) * cells_along(1) * cells_along(2) > cells_a_particle * count + 64)
+    size *= 2;
+
+  Three stride{};
+  double cells = 1;
+  for (const int d : axes) {
+    stride[d] = cells;
+    cells *= cells_along(d);
+  }
+  start_.assign(std::size_t(cells) + 1, 0);
+  cell_.resize(std::size_t(count));
+  for (int i = 0; i < count; ++i) {
+    double cell = 0;
+    for (int d = 0; d < 3; ++d)
+      cell += stride[d] * std::floor((atom.x[i][d] - extent.low[d]) / size);
+    cell_[i] = int(cell);
+    ++start_[std::size_t(cell_[i]) + 1];
+  }
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  from_.resize(std::size_t(count));
+  for (int i = 0; i < count; ++i)
+    from_[std::size_t(start_[cell_[i]]++)] = i;
+  permute(atom, from_);
+}
+
+} // namespace granflux::particle_subset
