@@ -47,11 +47,6 @@ template <std::size_t K> struct Values {
   }
 };
 
-template <std::size_t K> std::span<double> flat(std::vector<Values<K>>& values) {
-  static_assert(sizeof(Values<K>) == K * sizeof(double));
-  return {reinterpret_cast<double*>(values.data()), K * values.size()};
-}
-
 /// Adds the wall-clock time of its life to a counter.
 class Stopwatch {
 public:
@@ -138,10 +133,12 @@ struct Coupler::Impl {
   void locate(const ParticleView& view);
   void choose_smoothing(const ParticleView& view);
   void smooth(std::size_t fields);
+  template <std::size_t K> std::span<Values<K>> window();
   template <std::size_t K> void deposit(std::vector<Values<K>>& values);
   template <std::size_t K> void sample(std::vector<Values<K>>& values);
   void find_void_fraction(const ParticleView& view, ExchangeSums& sums);
   void check_void_fraction(ExchangeSums& sums) const;
+  std::string too_little_gas(std::size_t b, double least) const;
   void sample_old_gas();
   template <class Law>
   ExchangeSums charge(const Law& law, const ParticleView& view, double interval);
@@ -152,6 +149,7 @@ struct Coupler::Impl {
   template <class Law>
   ExchangeSums charge_heat(const Law& law, const ParticleView& view, double interval);
   void set_heat_exchange();
+  void sample_new_heat();
   ExchangeSums book_heat(const ParticleView& view, double interval);
 
   template <bool some_fixed> Vec3 apply(const ParticleView& view, double dt, double share) const;
@@ -177,6 +175,7 @@ struct Coupler::Impl {
   cfd::MomentumExchange momentum;
   cfd::HeatExchange heat; ///< empty without an energy equation
   cfd::BlockFields void_fraction;
+  std::vector<double> window_values;
   std::array<cfd::BlockFields, 6> work; ///< on gas cells, between messages and solver
 
   // Per particle: what is deposited or sampled.
@@ -224,13 +223,20 @@ void Coupler::Impl::smooth(std::size_t fields) {
     smoothing->apply({&work[0], &work[1], &work[2], &work[3], &work[4], &work[5]});
 }
 
+/// `window_values` as K numbers of each cell of the window.
+template <std::size_t K> std::span<Values<K>> Coupler::Impl::window() {
+  static_assert(sizeof(Values<K>) == K * sizeof(double));
+  const std::size_t cells = weights.window().size();
+  window_values.resize(K * cells);
+  return {reinterpret_cast<Values<K>*>(window_values.data()), cells};
+}
+
 /// work := S (sum_p w q_p / V)
 template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& values) {
   std::array<cfd::BlockFields*, K> fields;
-  std::vector<Values<K>> window(weights.window().size());
   {
     const Stopwatch watch(times.deposit);
-    weights.deposit(std::span<const Values<K>>(values), std::span<Values<K>>(window));
+    weights.deposit(std::span<const Values<K>>(values), window<K>());
     for (std::size_t k = 0; k < K; ++k) {
       fields[k] = &work[k];
       for (cfd::Field& field : work[k])
@@ -239,7 +245,7 @@ template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& val
   }
   {
     const Stopwatch watch(times.messages);
-    exchange.deposit(flat(window), fields);
+    exchange.deposit(window_values, fields);
   }
   const Stopwatch watch(times.deposit);
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
@@ -255,18 +261,18 @@ template <std::size_t K> void Coupler::Impl::sample(std::vector<Values<K>>& valu
   std::array<const cfd::BlockFields*, K> fields;
   for (std::size_t k = 0; k < K; ++k)
     fields[k] = &work[k];
-  std::vector<Values<K>> window(weights.window().size());
   {
     const Stopwatch watch(times.sample);
     smooth(K);
   }
+  const std::span<const Values<K>> gas_values = window<K>();
   {
     const Stopwatch watch(times.messages);
-    exchange.sample(fields, flat(window));
+    exchange.sample(fields, window_values);
   }
   const Stopwatch watch(times.sample);
   values.resize(weights.particles());
-  weights.sample(std::span<const Values<K>>(window), std::span<Values<K>>(values));
+  weights.sample(gas_values, std::span<Values<K>>(values));
 }
 
 void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& sums) {
@@ -281,13 +287,10 @@ void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& s
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const cfd::Block& block = mesh.local[b];
     // Before it becomes 1 - eps, which has no digits left for a single small particle.
-    for (int k = 0; k < block.layout.cells[2]; ++k)
-      for (int j = 0; j < block.layout.cells[1]; ++j)
-        for (int i = 0; i < block.layout.cells[0]; ++i) {
-          const std::ptrdiff_t c = block.layout.at(i, j, k);
-          sums.solid_volume += work[0][b][c] * block.volume[c];
-          void_fraction[b][c] = 1 - work[0][b][c];
-        }
+    sums.solid_volume += cfd::sum_cells(block.layout, [&](std::ptrdiff_t c) {
+      void_fraction[b][c] = 1 - work[0][b][c];
+      return work[0][b][c] * block.volume[c];
+    });
   }
   check_void_fraction(sums);
 }
@@ -296,26 +299,34 @@ void Coupler::Impl::check_void_fraction(ExchangeSums& sums) const {
   std::string complaint;
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const cfd::Block& block = mesh.local[b];
-    for (int k = 0; k < block.layout.cells[2]; ++k)
-      for (int j = 0; j < block.layout.cells[1]; ++j)
-        for (int i = 0; i < block.layout.cells[0]; ++i) {
-          const std::ptrdiff_t c = block.layout.at(i, j, k);
-          const double eps = void_fraction[b][c];
-          if (eps >= sums.void_fraction_min)
-            continue;
-          sums.void_fraction_min = eps;
-          if (eps >= options.void_fraction_floor)
-            continue;
-          const Vec3 centre{block.centre[0][c], block.centre[1][c], block.centre[2][c]};
-          complaint = "coupling: void fraction " + text(eps) + " in cell (" + std::to_string(i) +
-                      ", " + std::to_string(j) + ", " + std::to_string(k) + ") of block " +
-                      std::to_string(block.id) + ", centre " + text(centre) +
-                      " m, is below void_fraction_floor = " + text(options.void_fraction_floor) +
-                      "; use a wider smoothing (void_fraction = \"smoothed\", smoothing_width) or "
-                      "a coarser grid";
-        }
+    const double least = -cfd::max_cells(block.layout, -sums.void_fraction_min,
+                                         [&](std::ptrdiff_t c) { return -void_fraction[b][c]; });
+    // Also true for not-a-number.
+    if (!(least >= sums.void_fraction_min) && !(least >= options.void_fraction_floor))
+      complaint = too_little_gas(b, least);
+    sums.void_fraction_min = least;
   }
   throw_together<NumericalError>(mesh.comm, complaint);
+}
+
+/// Names the cell of a block that has the void fraction `least`.
+std::string Coupler::Impl::too_little_gas(std::size_t b, double least) const {
+  const cfd::Block& block = mesh.local[b];
+  for (int k = 0; k < block.layout.cells[2]; ++k)
+    for (int j = 0; j < block.layout.cells[1]; ++j)
+      for (int i = 0; i < block.layout.cells[0]; ++i) {
+        const std::ptrdiff_t c = block.layout.at(i, j, k);
+        if (void_fraction[b][c] > least || std::isnan(void_fraction[b][c]) != std::isnan(least))
+          continue;
+        const Vec3 centre{block.centre[0][c], block.centre[1][c], block.centre[2][c]};
+        return "coupling: void fraction " + text(void_fraction[b][c]) + " in cell (" +
+               std::to_string(i) + ", " + std::to_string(j) + ", " + std::to_string(k) +
+               ") of block " + std::to_string(block.id) + ", centre " + text(centre) +
+               " m, is below void_fraction_floor = " + text(options.void_fraction_floor) +
+               "; use a wider smoothing (void_fraction = \"smoothed\", smoothing_width) or a "
+               "coarser grid";
+      }
+  return {};
 }
 
 void Coupler::Impl::sample_old_gas() {
@@ -461,10 +472,13 @@ void Coupler::Impl::set_heat_exchange() {
     });
 }
 
-/// What the gas step took from the gas for each particle.
-ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval) {
+void Coupler::Impl::sample_new_heat() {
   work[0] = *gas.temperature();
   sample(new_heat);
+}
+
+/// What the gas step took from the gas for each particle.
+ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval) {
   return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
     if (!weights.placed(p))
       return;
@@ -540,13 +554,19 @@ const ExchangeReport& Coupler::exchange(const ParticleView& view, double interva
   ExchangeSums sums;
   s.find_void_fraction(view, sums);
   s.sample_old_gas();
-  sums += std::visit([&](const auto& law) { return s.charge(law, view, interval); }, s.drag);
+  {
+    const Stopwatch watch(s.times.laws);
+    sums += std::visit([&](const auto& law) { return s.charge(law, view, interval); }, s.drag);
+  }
   s.set_momentum_exchange();
   const bool with_heat = s.gas_case.energy.has_value();
   if (with_heat) {
     s.check_heat(view);
-    sums +=
-        std::visit([&](const auto& law) { return s.charge_heat(law, view, interval); }, s.nusselt);
+    {
+      const Stopwatch watch(s.times.laws);
+      sums += std::visit([&](const auto& law) { return s.charge_heat(law, view, interval); },
+                         s.nusselt);
+    }
     s.set_heat_exchange();
   }
   {
@@ -555,9 +575,14 @@ const ExchangeReport& Coupler::exchange(const ParticleView& view, double interva
         s.gas.advance(interval, s.void_fraction, &s.momentum, with_heat ? &s.heat : nullptr);
   }
   s.sample_new_gas();
-  sums += s.book(view, interval);
   if (with_heat)
-    sums += s.book_heat(view, interval);
+    s.sample_new_heat();
+  {
+    const Stopwatch watch(s.times.laws);
+    sums += s.book(view, interval);
+    if (with_heat)
+      sums += s.book_heat(view, interval);
+  }
   s.ledger.close(sums, s.gas.balance(), interval, s.report);
   return s.report;
 }

@@ -200,7 +200,8 @@ coupling::CouplingTimes GasDriver::coupling_times() const {
           .deposit = now.deposit - times_at_start_.deposit,
           .sample = now.sample - times_at_start_.sample,
           .messages = now.messages - times_at_start_.messages,
-          .force = now.force - times_at_start_.force};
+          .force = now.force - times_at_start_.force,
+          .laws = now.laws - times_at_start_.laws};
 }
 
 double GasDriver::seconds() const {

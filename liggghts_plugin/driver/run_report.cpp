@@ -26,7 +26,7 @@ RunTimesOverRanks over_ranks(RunTimes times, MPI_Comm comm) {
   const coupling::CouplingTimes& c = times.coupling;
   times.exchange = c.locate + c.deposit + c.messages + c.sample;
   times.rest = times.total -
-               (c.gas + times.exchange + c.force + times.fields + times.contacts +
+               (c.gas + times.exchange + c.laws + c.force + times.fields + times.contacts +
                 times.other_fixes + times.neighbour_lists + times.communication + times.output);
   using Row = std::array<double, sizeof(RunTimes) / sizeof(double)>;
   const RankSpread spread(std::bit_cast<Row>(times), comm);
@@ -95,6 +95,7 @@ std::string run_report(const RunTimesOverRanks& times, const LargestResiduals& l
   row("  deposit", [](const RunTimes& t) { return t.coupling.deposit; });
   row("  messages", [](const RunTimes& t) { return t.coupling.messages; });
   row("  sample", [](const RunTimes& t) { return t.coupling.sample; });
+  row("drag and heat laws", [](const RunTimes& t) { return t.coupling.laws; });
   row("fluid force", [](const RunTimes& t) { return t.coupling.force; });
   row("gas fields", [](const RunTimes& t) { return t.fields; });
   row("contacts", [](const RunTimes& t) { return t.contacts; });

@@ -167,6 +167,7 @@ driver::RunSteps FixCouple::run_steps() const {
 /// All other forces of the step are in the force array here, and velocities are those of the
 /// middle of the step.
 void FixCouple::pre_final_integrate() {
+  const particle_subset::Lap lap(particle_subset::work_times().gas);
   guard([&] {
     if (!gas_->running()) { // a run without set-up (`run N pre no`)
       time_all_fixes();

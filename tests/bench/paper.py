@@ -174,13 +174,12 @@ def small_bed(folder, mixing, steps):
 def large_bed(folder, title, size, mixing, steps):
     """Gas in every particle step, as the paper has it."""
     def prepare(scene, ranks):
-        words = run_words(**size, mixing=mixing, timed=0, show=0, couple_every=1)
+        words = run_words(**size, mixing=mixing, timed=0, show=0, state=f"mixed{ranks}.restart")
         measured_start(scene.folder, GRANFLUX, "-threads", str(max(CORES // ranks, 1)), "-in", scene.script, *words,
                        ranks=ranks)
-        (scene.folder / "mixed.restart").rename(scene.folder / f"mixed{ranks}.restart")
 
     def timed(ranks, count):
-        return run_words(**size, start=f"mixed{ranks}.restart", timed=count, show=0, couple_every=1)
+        return run_words(**size, resume=1, state=f"mixed{ranks}.restart", timed=count, show=0, couple_every=1)
 
     def fresh(count):
         return run_words(**size, mixing=mixing, timed=count, show=0, couple_every=1)

@@ -93,20 +93,49 @@ TEST(Weights, DepositKeepsTheSumAndSampleKeepsAConstant) {
   });
 }
 
-// Each entry once, by cell and by particle.
-TEST(Weights, DepositMatchesAPlainLoop) {
-  for_each_case([](const AnyKernel& kernel, const cfd::Lattice& lattice) {
-    const auto cloud = random_cloud(lattice, 500);
-    Weights weights;
-    weights.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
-    Values plain(weights.window().size(), 0.);
-    for (std::size_t p = 0; p < weights.particles(); ++p)
-      for (std::size_t e = 0; e < weights.cells(p).size(); ++e)
-        plain[weights.cells(p)[e]] += cloud.value[p] * weights.shares(p)[e];
-    const Values deposited = deposit(weights, cloud.value);
-    for (std::size_t c = 0; c < plain.size(); ++c)
-      EXPECT_NEAR(deposited[c], plain[c], 1e-14);
-  });
+// What the kernel says, added up in the order of the particles.
+void expect_plain_loop(const AnyKernel& any_kernel, const cfd::Lattice& lattice) {
+  const auto cloud = random_cloud(lattice, 500);
+  const LatticeLocator locator(lattice);
+  Weights weights;
+  weights.build(any_kernel, locator, cloud.position, cloud.radius);
+  const Values f = random_field(weights.window().size());
+  Values deposited(f.size(), 0.), sampled(cloud.value.size(), 0.);
+  std::visit(
+      [&](const auto& kernel) {
+        for (std::size_t p = 0; p < sampled.size(); ++p) {
+          const ParticlePlace place{cloud.position[p], cloud.radius[p],
+                                    *locator.cell(cloud.position[p])};
+          kernel(locator, place, [&](const cfd::Index3& cell, double share) {
+            ASSERT_TRUE(weights.window().contains(cell));
+            deposited[weights.window().index(cell)] += cloud.value[p] * share;
+            sampled[p] += f[weights.window().index(cell)] * share;
+          });
+        }
+      },
+      any_kernel);
+  const Values d = deposit(weights, cloud.value), s = sample(weights, f);
+  for (std::size_t c = 0; c < d.size(); ++c)
+    EXPECT_NEAR(d[c], deposited[c], 1e-14);
+  for (std::size_t p = 0; p < s.size(); ++p)
+    EXPECT_NEAR(s[p], sampled[p], 1e-14);
+}
+
+TEST(Weights, MatchAPlainLoop) {
+  for_each_case(expect_plain_loop);
+}
+
+// There is no upper cell then.
+TEST(Weights, GridsOfOneCell) {
+  for (const auto name : VoidFractionKernels::names)
+    for (int thin = 0; thin < 3; ++thin)
+      for (const bool periodic : {false, true}) {
+        auto lattice = sample_lattice({periodic, periodic, periodic});
+        auto& nodes = lattice.nodes[std::size_t(thin)];
+        nodes = {nodes.front(), nodes.back()};
+        lattice.starts[std::size_t(thin)] = {0, 1};
+        expect_plain_loop(VoidFractionKernels::make("void_fraction", name), lattice);
+      }
 }
 
 // Bit for bit, whatever the number of threads.

@@ -209,10 +209,14 @@ void Verlet::run_steps(int steps) {
     load_.ghosts += atom->nghost;
     compute_forces();
     {
-      const Lap lap(times.integration);
-      if (modify->n_pre_final_integrate)
-        modify->pre_final_integrate();
-      final_integrate(i + 1 == steps || now == output->next);
+      const double gas_before = times.gas;
+      {
+        const Lap lap(times.integration);
+        if (modify->n_pre_final_integrate)
+          modify->pre_final_integrate();
+        final_integrate(i + 1 == steps || now == output->next);
+      }
+      times.integration -= times.gas - gas_before;
     }
     if (modify->n_end_of_step) {
       const Lap lap(times.other_fixes);

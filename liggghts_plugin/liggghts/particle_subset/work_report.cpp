@@ -20,14 +20,13 @@ double ratio(double a, double b) {
 } // namespace
 
 std::string work_report(const WorkTimes& times, const WorkLoad& load, MPI_Comm comm) {
-  constexpr std::array names{"contacts",      "contact lists", "walls",
-                             "integration",   "other fixes",   "neighbour lists",
-                             "communication", "output",        "waiting for threads",
-                             "rest",          "total"};
+  constexpr std::array names{
+      "contacts",        "contact lists", "walls",  "integration",         "gas",  "other fixes",
+      "neighbour lists", "communication", "output", "waiting for threads", "rest", "total"};
   std::array<double, names.size()> seconds{
-      times.contacts,    times.contact_lists,   times.walls,         times.integration,
-      times.other_fixes, times.neighbour_lists, times.communication, times.output,
-      times.waiting,     times.total,           times.total};
+      times.contacts, times.contact_lists, times.walls,           times.integration,
+      times.gas,      times.other_fixes,   times.neighbour_lists, times.communication,
+      times.output,   times.waiting,       times.total,           times.total};
   constexpr std::size_t rest = names.size() - 2, total = names.size() - 1;
   for (std::size_t part = 0; part < rest; ++part)
     seconds[rest] -= seconds[part];

@@ -12,6 +12,7 @@ struct WorkTimes {
   double contact_lists = 0; ///< of the pairs that may touch, where they are not LIGGGHTS' own
   double walls = 0;
   double integration = 0;
+  double gas = 0; ///< with its exchange with the particles
   double other_fixes = 0;
   double neighbour_lists = 0; ///< check of their age, LIGGGHTS' own lists, memory of contacts
   double communication = 0;   ///< ghosts, exchange between ranks, sorting

@@ -70,6 +70,7 @@ struct ExchangeReport {
 /// Seconds spent, this rank.
 struct CouplingTimes {
   double gas = 0, locate = 0, deposit = 0, sample = 0, messages = 0, force = 0;
+  double laws = 0; ///< drag and Nusselt numbers of the particles, and their books
 };
 
 /// Two-way coupling of particles that a host moves with the gas of cfd_lib. One coupling step:

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
-#include <granflux/coupling/kernel/kernels.hpp>
-#include <granflux/coupling/window.hpp>
+#include <granflux/coupling/corner_shares.hpp>
+#include <granflux/coupling/share_lists.hpp>
 
 namespace granflux::coupling {
 
@@ -18,8 +19,9 @@ namespace granflux::coupling {
 ///
 ///   sum_p q_p sample(f)_p = sum_c deposit(q)_c f_c .
 ///
-/// Both are loops in which each result is summed by one thread in a fixed order: the same bits for
-/// every number of threads. Values may be of any type with zero T{}, += and * double.
+/// In both each result is summed by one thread at a time in a fixed order: the same bits for every
+/// number of threads. Values may be of any type that consists of doubles, with zero T{}, += and
+/// * double.
 class Weights {
 public:
   /// Renews the shares. Particles whose `coupled` entry is 0 (if given) are left out; so are those
@@ -27,80 +29,27 @@ public:
   void build(const AnyKernel& kernel, const AnyLocator& locator, std::span<const Vec3> position,
              std::span<const double> radius, std::span<const std::uint8_t> coupled = {});
 
-  [[nodiscard]] const Window& window() const { return window_; }
-  [[nodiscard]] std::size_t particles() const { return offset_.size() - 1; }
+  [[nodiscard]] const Window& window() const { return placing_.window; }
+  [[nodiscard]] std::size_t particles() const { return placed_.size(); }
   /// Coupled and inside the grid.
-  [[nodiscard]] bool placed(std::size_t p) const { return offset_[p] < offset_[p + 1]; }
-  [[nodiscard]] std::size_t placed_count() const { return placed_; }
+  [[nodiscard]] bool placed(std::size_t p) const { return placed_[p] != 0; }
+  [[nodiscard]] std::size_t placed_count() const { return placing_.placed; }
   /// Particles meant to be coupled but outside the grid.
-  [[nodiscard]] std::size_t outside_count() const { return outside_; }
-
-  /// Window cells that particle p touches, and its shares in them.
-  [[nodiscard]] std::span<const std::uint32_t> cells(std::size_t p) const {
-    return {cell_.data() + offset_[p], offset_[p + 1] - offset_[p]};
-  }
-  [[nodiscard]] std::span<const double> shares(std::size_t p) const {
-    return {share_.data() + offset_[p], offset_[p + 1] - offset_[p]};
-  }
+  [[nodiscard]] std::size_t outside_count() const { return placing_.outside; }
 
   /// field[c] = sum over particles of share * value. `field` has window().size() entries.
-  template <class T> void deposit(std::span<const T> value, std::span<T> field) const;
+  template <class T> void deposit(std::span<const T> value, std::span<T> field) const {
+    std::visit([&](const auto& shares) { shares.deposit(value, field); }, shares_);
+  }
   /// value[p] = sum over cells of share * field; T{} for a particle that is not placed.
-  template <class T> void sample(std::span<const T> field, std::span<T> value) const;
+  template <class T> void sample(std::span<const T> field, std::span<T> value) const {
+    std::visit([&](const auto& shares) { shares.sample(field, value); }, shares_);
+  }
 
 private:
-  /// Shares found by one thread for its run of consecutive particles.
-  struct Run {
-    struct Entry {
-      cfd::Index3 cell;
-      double share;
-    };
-    std::vector<Entry> entries;
-    std::size_t placed = 0, outside = 0;
-    Window window; ///< tight around its cells
-  };
-
-  template <class Kernel, class Locator>
-  void find_shares(const Kernel& kernel, const Locator& locator, std::span<const Vec3> position,
-                   std::span<const double> radius, std::span<const std::uint8_t> coupled);
-  void number_cells();
-  void transpose();
-
-  Window window_;
-  std::size_t placed_ = 0, outside_ = 0;
-  // particle -> cells, by particle
-  std::vector<std::size_t> offset_{0};
-  std::vector<std::uint32_t> cell_;
-  std::vector<double> share_;
-  // cell -> particles, each cell's in particle order
-  std::vector<std::size_t> cell_offset_{0};
-  std::vector<std::uint32_t> particle_;
-  std::vector<double> cell_share_;
-  // kept from build to build, so that they allocate once
-  std::vector<Run> runs_;
-  std::vector<std::vector<std::uint32_t>> tally_; ///< [thread][cell]
+  Placing placing_{.placed = 0, .outside = 0, .window = {}};
+  std::vector<std::uint8_t> placed_;
+  std::variant<ShareLists, CornerShares> shares_;
 };
-
-template <class T> void Weights::deposit(std::span<const T> value, std::span<T> field) const {
-  const auto cells = std::ptrdiff_t(window_.size());
-#pragma omp parallel for schedule(guided)
-  for (std::ptrdiff_t c = 0; c < cells; ++c) {
-    T sum{};
-    for (std::size_t e = cell_offset_[std::size_t(c)]; e < cell_offset_[std::size_t(c) + 1]; ++e)
-      sum += value[particle_[e]] * cell_share_[e];
-    field[std::size_t(c)] = sum;
-  }
-}
-
-template <class T> void Weights::sample(std::span<const T> field, std::span<T> value) const {
-  const auto count = std::ptrdiff_t(particles());
-#pragma omp parallel for schedule(static)
-  for (std::ptrdiff_t p = 0; p < count; ++p) {
-    T sum{};
-    for (std::size_t e = offset_[std::size_t(p)]; e < offset_[std::size_t(p) + 1]; ++e)
-      sum += field[cell_[e]] * share_[e];
-    value[std::size_t(p)] = sum;
-  }
-}
 
 } // namespace granflux::coupling

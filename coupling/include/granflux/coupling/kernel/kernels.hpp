@@ -23,4 +23,10 @@ inline constexpr bool serves = requires(const Kernel kernel, const Locator& loca
   kernel(locator, particle, [](const cfd::Index3&, double) {});
 };
 
+/// Whether its shares are given by the corners of one cube of cells.
+template <class Kernel, class Locator>
+inline constexpr bool has_corners = requires(const Kernel kernel, const Locator& locator) {
+  kernel.corners(locator, Vec3{}, cfd::Index3{});
+};
+
 } // namespace granflux::coupling
