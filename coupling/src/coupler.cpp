@@ -223,20 +223,26 @@ void Coupler::Impl::smooth(std::size_t fields) {
     smoothing->apply({&work[0], &work[1], &work[2], &work[3], &work[4], &work[5]});
 }
 
-/// `window_values` as K numbers of each cell of the window.
+/// K numbers of each cell of the window: what `window_values` held before is lost.
 template <std::size_t K> std::span<Values<K>> Coupler::Impl::window() {
   static_assert(sizeof(Values<K>) == K * sizeof(double));
   const std::size_t cells = weights.window().size();
-  window_values.resize(K * cells);
+  if (window_values.size() < K * cells)
+    window_values.resize(K * cells);
   return {reinterpret_cast<Values<K>*>(window_values.data()), cells};
+}
+
+template <std::size_t K> std::span<double> flat(std::span<Values<K>> values) {
+  return {reinterpret_cast<double*>(values.data()), K * values.size()};
 }
 
 /// work := S (sum_p w q_p / V)
 template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& values) {
   std::array<cfd::BlockFields*, K> fields;
+  const std::span<Values<K>> sums = window<K>();
   {
     const Stopwatch watch(times.deposit);
-    weights.deposit(std::span<const Values<K>>(values), window<K>());
+    weights.deposit(std::span<const Values<K>>(values), sums);
     for (std::size_t k = 0; k < K; ++k) {
       fields[k] = &work[k];
       for (cfd::Field& field : work[k])
@@ -245,7 +251,7 @@ template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& val
   }
   {
     const Stopwatch watch(times.messages);
-    exchange.deposit(window_values, fields);
+    exchange.deposit(flat(sums), fields);
   }
   const Stopwatch watch(times.deposit);
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
@@ -265,14 +271,14 @@ template <std::size_t K> void Coupler::Impl::sample(std::vector<Values<K>>& valu
     const Stopwatch watch(times.sample);
     smooth(K);
   }
-  const std::span<const Values<K>> gas_values = window<K>();
+  const std::span<Values<K>> gas_values = window<K>();
   {
     const Stopwatch watch(times.messages);
-    exchange.sample(fields, window_values);
+    exchange.sample(fields, flat(gas_values));
   }
   const Stopwatch watch(times.sample);
   values.resize(weights.particles());
-  weights.sample(gas_values, std::span<Values<K>>(values));
+  weights.sample(std::span<const Values<K>>(gas_values), std::span<Values<K>>(values));
 }
 
 void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& sums) {
