@@ -189,9 +189,9 @@ def large_bed(folder, title, size, mixing, steps):
 
 
 def kiln(folder, title, size, turned, steps):
-    """Gas and heat. The drum turns without gas first, so that any number of ranks can take the state up."""
-    step = 2e-5  # s, as in.drum has it
-    never = {"every": 1000, "report": 1000}  # s
+    """Gas and heat in every particle step. The drum turns without gas first, so that any number of ranks can take the
+    state up."""
+    step = 2.5e-5  # s, as in.drum has it
 
     def prepare(scene, ranks):
         if (scene.folder / "turned").exists():
@@ -201,12 +201,18 @@ def kiln(folder, title, size, turned, steps):
         (scene.folder / "turned").touch()
 
     def timed(ranks, count):
-        prepare(scene, ranks)
-        return run_words(**{name: value for name, value in size.items() if name != "fill"}, **never, time=count * step,
-                         couple_every=1)
+        return run_words(**{name: value for name, value in size.items() if name != "fill"}, timed=count, couple_every=1)
 
-    scene = CoupledScene(folder, title, "rotary_kiln", "in.kiln", steps, prepare, timed, lambda count: timed(1, count),
-                         ("px", "py", "pz"))
+    def fresh(count):
+        prepare(scene, 1)
+        return timed(1, count)
+
+    scene = CoupledScene(folder, title, "rotary_kiln", "in.kiln_timed", steps, prepare, timed, fresh, ("px", "py", "pz"))
+    if size:  # as examples/rotary_kiln/run.sh makes the whole kiln of the section
+        case = (folder / "kiln.toml").read_text()
+        for key, value in (("length", size["length"]), ("cells", [5, 10, 15]), ("axial_blocks", 5)):
+            case = re.sub(rf"^{key} = .*", f"{key} = {value}", case, flags=re.M)
+        (folder / "kiln.toml").write_text(case)
     return scene
 
 

@@ -16,9 +16,9 @@ struct Range {
 
 /// The particles 0 ... count - 1 that a rank owns, divided by number into one contiguous range per
 /// thread (Amritkar, Deb, Tafti, J. Comput. Phys. 256 (2014), section 3). A range is compact in
-/// space as far as the host sorts its particles by place. Depends on the two numbers alone, so that
-/// whoever asks gets the same answer; ranges begin at multiples of `line` particles, so that no two
-/// threads write one cache line of an aligned array of doubles or of vectors.
+/// space as far as particles are sorted by place (SpatialOrder). Depends on the two numbers alone,
+/// so that whoever asks gets the same answer; ranges begin at multiples of `line` particles, so
+/// that no two threads write one cache line of an aligned array of doubles or of vectors.
 class Subset {
 public:
   static constexpr int line = 8;
