@@ -24,17 +24,15 @@ Placing CornerShares::build(const Trilinear& kernel, const LatticeLocator& latti
       placed[p] = 0;
       if (!particles.takes_part(p))
         continue;
-      const Vec3 centre = lattice.fold(particles.position[p]);
-      const auto cell = lattice.cell(centre);
-      if (!cell) {
+      const auto corners = kernel.corners(lattice, lattice.fold(particles.position[p]));
+      if (!corners) {
         ++mine.outside;
         continue;
       }
       placed[p] = 1;
       ++mine.placed;
-      TrilinearCorners& corners = of_particle_[p];
-      corners = kernel.corners(lattice, centre, *cell);
-      const cfd::Index3& low = corners.lowest;
+      of_particle_[p] = *corners;
+      const cfd::Index3& low = corners->lowest;
       mine.include(low, {low[0] + step[0] + 1, low[1] + step[1] + 1, low[2] + step[2] + 1});
     }
     of_thread[std::size_t(t)] = mine;

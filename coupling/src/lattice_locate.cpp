@@ -13,9 +13,11 @@ LatticeAxis::LatticeAxis(const std::vector<double>& nodes, bool periodic)
   for (std::size_t i = 0; i < centres_.size(); ++i)
     centres_[i] = 0.5 * (nodes[i] + nodes[i + 1]);
   per_length_ = cells_ / length();
-  uniform_ = true;
+  double off = 0; // in cells, of a node from where equal cells would have it
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    uniform_ = uniform_ && std::abs((nodes[i] - nodes[0]) * per_length_ - double(i)) < 0.01;
+    off = std::max(off, std::abs((nodes[i] - nodes[0]) * per_length_ - double(i)));
+  uniform_ = off < 0.01;
+  equal_ = off < 1e-12 * cells_;
 }
 
 LatticeLocator::LatticeLocator(const cfd::Lattice& lattice) {

@@ -246,7 +246,7 @@ def paper(quick):
         add("Fig. 4, strong scaling", "331 776 particles, 262 144 cells, from rest, gas in every particle step.",
             "particles scale to 64 cores, gas to 16.",
             large_bed(top / "scaling", "large bed, scaling", SMALL, 0.003, 0),
-            (1, 2, 4, 8) if quick else (1, 2, 4, 8, 16, 32, 64), (5, 15) if quick else (5, 25))
+            (1, 2, 4, 8) if quick else (1, 2, 4, 8, 16, 32, 64), (5, 45) if quick else (5, 85))
         if not quick:
             add("5.3 million particles", "5.3 million particles, 1 million cells, 2.6 m/s, gas in every particle step.",
                 "50 steps on 32 cores: particles 170 s by OpenMP, 330 s by MPI (0.52).",

@@ -28,6 +28,16 @@ public:
   /// direction that is not periodic to the last cell. Nothing if x is outside or not a number.
   /// Along a periodic direction the index goes on below 0 and past the last cell.
   [[nodiscard]] std::optional<int> cell(double x) const;
+  /// The cells below and above x whose centres it lies between, along a periodic direction
+  /// unwrapped, and the share of the upper one in x. Between a wall and the first centre the share
+  /// of the cell beyond the wall is 0; along a direction of one cell without a period that is the
+  /// upper one.
+  struct Between {
+    int lower = 0;
+    double upper_share = 0;
+  };
+  /// Nothing where cell(x) is nothing.
+  [[nodiscard]] std::optional<Between> between(double x) const;
   /// Unwrapped index to 0 <= i < cells; the identity where the direction is not periodic.
   [[nodiscard]] int wrap(int i) const;
   /// Centre of a cell [m]; along a periodic direction of any unwrapped one.
@@ -37,11 +47,13 @@ public:
 
 private:
   [[nodiscard]] int within(double x) const; ///< for x inside the box
+  [[nodiscard]] Between inner(int lower, double upper_share) const;
 
   std::vector<double> nodes_, centres_;
   int cells_ = 0;
   bool periodic_ = false;
-  bool uniform_ = false;
+  bool uniform_ = false;  ///< nearly, so that a cell is found by arithmetic and a look at its nodes
+  bool equal_ = false;    ///< to rounding: nodes need no look
   double per_length_ = 0; ///< cells per metre where uniform
 };
 
@@ -96,6 +108,31 @@ inline std::optional<int> LatticeAxis::cell(double x) const {
   if (!(std::abs(periods) < 1000)) // not a number, or so far off that the index may overflow
     return std::nullopt;
   return within(x - periods * length()) + cells_ * int(periods);
+}
+
+inline LatticeAxis::Between LatticeAxis::inner(int lower, double upper_share) const {
+  if (!periodic_) {
+    if (lower < 0)
+      return {0, 0};
+    if (lower + 1 >= cells_)
+      return cells_ > 1 ? Between{cells_ - 2, 1} : Between{0, 0};
+  }
+  return {lower, upper_share};
+}
+
+inline std::optional<LatticeAxis::Between> LatticeAxis::between(double x) const {
+  if (equal_ && nodes_.front() <= x && x <= nodes_.back()) {
+    const double place = (x - nodes_.front()) * per_length_ - 0.5, lower = std::floor(place);
+    return inner(int(lower), place - lower);
+  }
+  const std::optional<int> in = cell(x);
+  if (!in)
+    return std::nullopt;
+  const int lower = x < centre(*in) ? *in - 1 : *in;
+  if (!periodic_ && (lower < 0 || lower + 1 >= cells_))
+    return inner(lower, 0);
+  const double below = centre(lower), above = centre(lower + 1);
+  return Between{lower, (x - below) / (above - below)};
 }
 
 inline int LatticeAxis::wrap(int i) const {

@@ -26,7 +26,7 @@ inline constexpr bool serves = requires(const Kernel kernel, const Locator& loca
 /// Whether its shares are given by the corners of one cube of cells.
 template <class Kernel, class Locator>
 inline constexpr bool has_corners = requires(const Kernel kernel, const Locator& locator) {
-  kernel.corners(locator, Vec3{}, cfd::Index3{});
+  kernel.corners(locator, Vec3{});
 };
 
 } // namespace granflux::coupling

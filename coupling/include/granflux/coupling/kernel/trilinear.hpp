@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <optional>
 
 #include <granflux/coupling/kernel/kernel.hpp>
 
@@ -23,7 +23,7 @@ struct Trilinear {
 
   template <class Emit>
   void operator()(const LatticeLocator& lattice, const ParticlePlace& particle, Emit&& emit) const {
-    const auto [low, upper] = corners(lattice, particle.centre, particle.cell);
+    const auto [low, upper] = *corners(lattice, particle.centre);
     const auto share = [](double above, int i) { return i == 0 ? 1 - above : above; };
     for (int k = 0; k < 2; ++k)
       for (int j = 0; j < 2; ++j)
@@ -34,35 +34,15 @@ struct Trilinear {
         }
   }
 
-  /// Along a direction of one cell without a period the upper one does not exist, and its share is
-  /// 0; everywhere else both do.
-  [[nodiscard]] TrilinearCorners corners(const LatticeLocator& lattice, const Vec3& centre,
-                                         const cfd::Index3& cell) const {
-    TrilinearCorners found{};
-    for (int d = 0; d < 3; ++d) {
-      const Pair pair = neighbours(lattice.axis(d), centre[d], cell[std::size_t(d)]);
-      found.lowest[std::size_t(d)] = pair.low;
-      found.upper[d] = pair.upper;
-    }
-    return found;
-  }
-
-private:
-  struct Pair {
-    int low = 0;
-    double upper = 0;
-  };
-
-  static Pair neighbours(const LatticeAxis& axis, double x, int cell) {
-    const int low = x < axis.centre(cell) ? cell - 1 : cell;
-    if (!axis.periodic()) {
-      if (low < 0)
-        return {0, 0};
-      if (low + 1 >= axis.cells())
-        return low > 0 ? Pair{low - 1, 1} : Pair{0, 0};
-    }
-    const double below = axis.centre(low), above = axis.centre(low + 1);
-    return {low, (x - below) / (above - below)};
+  /// Nothing for a centre outside the grid.
+  [[nodiscard]] std::optional<TrilinearCorners> corners(const LatticeLocator& lattice,
+                                                        const Vec3& centre) const {
+    const auto x = lattice.axis(0).between(centre.x), y = lattice.axis(1).between(centre.y),
+               z = lattice.axis(2).between(centre.z);
+    if (!x || !y || !z)
+      return std::nullopt;
+    return TrilinearCorners{{x->lower, y->lower, z->lower},
+                            {x->upper_share, y->upper_share, z->upper_share}};
   }
 };
 
