@@ -88,7 +88,8 @@ def load_of(output):
         return {key: float(value) for key, value in zip(
             ("mean", "most", "least"), re.findall(rf"{name}: +(\S+) ave (\S+) max (\S+) min", output)[-1])}
     particles, ghosts = found("Nlocal"), found("Nghost")
-    return {"most_particles_over_mean": particles["most"] / particles["mean"], "ghosts_a_rank": ghosts["mean"],
+    return {"particles": int(re.findall(r"Loop time of .* with (\d+) atoms", output)[-1]),
+            "most_particles_over_mean": particles["most"] / particles["mean"], "ghosts_a_rank": ghosts["mean"],
             "most_ghosts": ghosts["most"], "peak_memory": re.findall(r"granflux: peak memory (.*)", output)[-1]}
 
 
@@ -124,6 +125,8 @@ def by_cores(scene, rounds):
         result[cores] = {
             way.name: {"seconds": {part: spread([p[part] for p in found]) for part in found[0]},
                        "exchange_percent": spread([100 * p["exchange"] / p["total"] for p in found]),
+                       "exchange_ns_a_particle_and_gas_step": spread(
+                           [1e9 * p["exchange"] / loads[way]["particles"] / scene.steps for p in found]),
                        "OpenMP_over_this": {part: over(threads, way, part) for part in ("total", "particles")},
                        "grid": way.grid if way.grid == "automatic" else " ".join(map(str, best[way.ranks])),
                        **loads[way]}

@@ -75,10 +75,11 @@ def scene_section(title, scene):
                 rows.append([f"{cores}: {name}", found["grid"], *(f"{s[p]['median']:.3g}" for p in PARTS),
                              range_of(s["total"], "{:.3g}"), range_of(found["OpenMP_over_this"]["particles"]),
                              range_of(found["OpenMP_over_this"]["total"]), f"{found['exchange_percent']['median']:.1f}",
+                             f"{found['exchange_ns_a_particle_and_gas_step']['median']:.0f}",
                              f"{found['ghosts_a_rank']:.0f}", f"{found['most_particles_over_mean']:.2f}",
                              found["peak_memory"]])
         text += table(["cores: way", "grid", "gas, s", "exchange, s", "particles, s", "total, s",
-                       "OpenMP over this, particles", "the same, total", "exchange, %", "ghosts a rank",
+                       "OpenMP over this, particles", "the same, total", "exchange, %", "exchange, ns a particle and gas step", "ghosts a rank",
                        "most particles over mean", "peak memory"], rows)
     if "derived" in scene:
         text += ("<p>Derived: ranks and threads take turns on the cores at hand; measured is the processor time of each, "
