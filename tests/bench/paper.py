@@ -223,42 +223,54 @@ SMALL = {"floor": 192, "case": "gas_small"}
 WHOLE_KILN = {"length": 76.2e-3, "particles": 100000, "fill": 19e-3}
 
 
-def paper(quick):
-    """Quick: the same scenes, smaller where the paper's are large, with fewer steps and rounds."""
-    rounds = 3 if quick else 5
-    found = {}
-
-    def add(title, what, said, scene, count_to=(), steps=None):
-        section = {"what": what, "paper": said}
-        if scene.steps:
-            section["by_cores"] = by_cores(scene, rounds)
-        if count_to:
-            section["derived"] = derived(scene, count_to, steps)
-        found[title] = section
-
-    with tempfile.TemporaryDirectory() as top:
-        top = Path(top)
-        add("Table 2: the small bed", "9240 particles, 768 cells, 0.9 m/s, gas in every particle step.",
+def scenes(quick):
+    """{title: (what it is, what the paper says, the scene in a folder, more for derived())}, cheap ones first."""
+    size, what = (SMALL, "331 776 particles, 262 144 cells") if quick else ({}, "1.3 million particles, 1 million cells")
+    found = {
+        "Table 2: the small bed": (
+            "9240 particles, 768 cells, 0.9 m/s, gas in every particle step.",
             "20 000 steps on 2 cores: gas 1550 s by OpenMP and 1585 by MPI, particles 1715 and 2075 (0.83); on 4 cores 1235 "
             "and 1265, 820 and 1310 (0.63).",
-            small_bed(top / "small_bed", 0.1 if quick else 0.5, 1000 if quick else 4000))
-        size, what = (SMALL, "331 776 particles, 262 144 cells") if quick else ({}, "1.3 million particles, 1 million cells")
-        add("Fig. 4: the large bed", what + ", 2.6 m/s, gas in every particle step.",
-            "on up to 16 cores the particles take by OpenMP less than half of the time by MPI; in all 20 to 30 % less on up to 32.",
-            large_bed(top / "large_bed", "large bed", size, 0.02 if quick else 0.1, 20 if quick else 50))
-        add("Fig. 4, strong scaling", "331 776 particles, 262 144 cells, from rest, gas in every particle step.",
-            "particles scale to 64 cores, gas to 16.",
-            large_bed(top / "scaling", "large bed, scaling", SMALL, 0.003, 0),
-            (1, 2, 4, 8) if quick else (1, 2, 4, 8, 16, 32, 64), (5, 45) if quick else (5, 85))
-        if not quick:
-            add("5.3 million particles", "5.3 million particles, 1 million cells, 2.6 m/s, gas in every particle step.",
-                "50 steps on 32 cores: particles 170 s by OpenMP, 330 s by MPI (0.52).",
-                large_bed(top / "deep_bed", "deep bed", {"layers": 36}, 0.01, 50))
-        add("Table 5: the kiln's section", "20 000 particles, 5 blocks of 900 cells in all, 20 rpm, gas and heat in every particle step.",
+            lambda folder: small_bed(folder, 0.1 if quick else 0.5, 1000 if quick else 4000), None),
+        "Table 5: the kiln's section": (
+            "20 000 particles, 5 blocks of 900 cells in all, 20 rpm, gas and heat in every particle step.",
             "10 ms on 5 cores: 160 s by OpenMP, 330 s by MPI (0.48).",
-            kiln(top / "kiln_section", "kiln section", {}, 0.1 if quick else 1, 200 if quick else 1000))
-        add("Table 5, Fig. 11: the whole kiln", "100 000 particles, 25 blocks of 4500 cells in all, 20 rpm, gas and heat in every particle step.",
+            lambda folder: kiln(folder, "kiln section", {}, 0.1 if quick else 1, 200 if quick else 1000), None),
+        "Table 5, Fig. 11: the whole kiln": (
+            "100 000 particles, 25 blocks of 4500 cells in all, 20 rpm, gas and heat in every particle step.",
             "10 ms on 25 cores: 275 s by OpenMP, 445 s by MPI (0.62).",
-            kiln(top / "kiln", "whole kiln", WHOLE_KILN, 0.02 if quick else 1, 50 if quick else 500),
-            (1, 5) if quick else (1, 5, 10, 15, 20, 25), (10, 30) if quick else (20, 100))
-    return {"quick": quick, "rounds": rounds, "scenes": found}
+            lambda folder: kiln(folder, "whole kiln", WHOLE_KILN, 0.1 if quick else 1, 50 if quick else 500), None),
+        "Fig. 4: the large bed": (
+            what + ", 2.6 m/s, gas in every particle step.",
+            "on up to 16 cores the particles take by OpenMP less than half of the time by MPI; in all 20 to 30 % less on up to 32.",
+            lambda folder: large_bed(folder, "large bed", size, 0.02 if quick else 0.1, 20 if quick else 50), None),
+        "Fig. 11, strong scaling": (
+            "The whole kiln, from the turned state.", "5 to 25 cores: by MPI and OpenMP, no numbers in the text.",
+            lambda folder: kiln(folder, "kiln, scaling", WHOLE_KILN, 0.1 if quick else 1, 0),
+            ((1, 5) if quick else (1, 5, 10, 15, 20, 25), (20, 100))),
+        "Fig. 4, strong scaling": (
+            "331 776 particles, 262 144 cells, from rest, gas in every particle step.",
+            "particles scale to 64 cores, gas to 16.",
+            lambda folder: large_bed(folder, "large bed, scaling", SMALL, 0.003, 0),
+            ((1, 2, 4, 8) if quick else (1, 2, 4, 8, 16, 32, 64), (5, 45) if quick else (5, 85)))}
+    if not quick:
+        found["5.3 million particles"] = (
+            "5.3 million particles, 1 million cells, 2.6 m/s, gas in every particle step.",
+            "50 steps on 32 cores: particles 170 s by OpenMP, 330 s by MPI (0.52).",
+            lambda folder: large_bed(folder, "deep bed", {"layers": 36}, 0.01, 50), None)
+    return found
+
+
+def paper(quick, done, keep):
+    """Quick: the same scenes, smaller where the paper's are large, with fewer steps and rounds. `done`: scenes of an
+    earlier run, which are not run again; keep(result) is called after each."""
+    result = {"quick": quick, "rounds": 3 if quick else 5, "scenes": dict(done)}
+    for title, (what, said, make, more) in scenes(quick).items():
+        if title in done:
+            continue
+        with tempfile.TemporaryDirectory() as top:
+            scene = make(Path(top) / "scene")
+            found = {"derived": derived(scene, *more)} if more else {"by_cores": by_cores(scene, result["rounds"])}
+        result["scenes"][title] = {"what": what, "paper": said, **found}
+        keep(result)
+    return result
