@@ -37,15 +37,15 @@
 
 namespace granflux::liggghts {
 
-using particle_subset::DetailSums;
+using particle_subset::ContactHeatRates;
 using particle_subset::HeatDetails;
-using particle_subset::HeatPowers;
-using particle_subset::HeatRates;
+using particle_subset::HeatSums;
+using particle_subset::NearHeatRates;
 using particle_subset::WallHeatRates;
 
 namespace {
 
-constexpr int vector_length = 22;       // 5 of the particles, 8 powers, 8 energies, the rest
+constexpr int vector_length = 24;
 constexpr double biot_limit = 0.1;      // above it a particle is not of one temperature
 constexpr double radiation_limit = 700; // K; above it radiation cannot be neglected
 
@@ -73,6 +73,7 @@ template <class Work> void FixHeat::guard(Work&& work) {
 }
 
 FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
+  restart_global = 1;
   scalar_flag = vector_flag = 1;
   size_vector = vector_length;
   global_freq = 1;
@@ -94,7 +95,8 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, 
 }
 
 int FixHeat::setmask() {
-  return LAMMPS_NS::FixConst::PRE_FORCE | LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
+  using namespace LAMMPS_NS::FixConst;
+  return PRE_FORCE | PRE_FINAL_INTEGRATE | (options_.near.any() ? PRE_EXCHANGE : 0);
 }
 
 /// A fix property/atom of that name, made here unless there is one.
@@ -119,9 +121,10 @@ void FixHeat::post_create() {
   carry_ = property("granflux_temperature_carry", 1, true, false, 0);
   heat_flux_ = property("heatFlux", 1, false, false, 0);
   source_ = property("heatSource", 1, true, false, 0);
-  contacts_ = property("heatContact", doubles(sizeof(HeatRates)), false, false, 0);
+  contacts_ = property("heatContact", doubles(sizeof(ContactHeatRates)), false, false, 0);
   details_ = property("heatDetail", doubles(sizeof(HeatDetails)), false, false, 0);
   walls_ = property("heatWall", doubles(sizeof(WallHeatRates)), false, false, 0);
+  near_ = property("heatNear", doubles(sizeof(NearHeatRates)), false, false, 0);
 }
 
 void FixHeat::pre_delete(bool unfix) {
@@ -162,16 +165,19 @@ int FixHeat::held_bits() const {
 void FixHeat::init() {
   guard([&] {
     check_script();
-    materials_ = read_heat_materials(*lmp, options_.contacts);
+    materials_ = read_heat_materials(*lmp, options_);
     law_ = particle_subset::ContactHeat(options_.contacts, materials_.materials,
                                         materials_.overlap_ratio);
+    near_law_ = particle_subset::NearHeat(options_.near, materials_.emissivity);
     held_ = held_bits();
     steps_by_gas_ = false;
-    auto* subsets = dynamic_cast<particle_subset::PairGran*>(force->pair);
-    fused_ = subsets && subsets->holds_history();
+    sums_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+    subsets_ = dynamic_cast<particle_subset::PairGran*>(force->pair);
+    if (subsets_ && !subsets_->holds_history())
+      subsets_ = nullptr;
     pair_ = nullptr;
-    if (fused_) {
-      subsets->set_heat(*this);
+    if (subsets_) {
+      subsets_->set_heat(*this);
       return;
     }
     pair_ = dynamic_cast<LAMMPS_NS::PairGran*>(force->pair_match("gran", 0));
@@ -179,36 +185,48 @@ void FixHeat::init() {
       throw ConfigError("needs pair_style gran");
     const auto& wanted = options_.contacts;
     if (!law_.needs_no_force() || wanted.friction != particle_subset::FrictionHeat::off ||
-        wanted.damping)
+        wanted.damping || options_.near.any())
       throw ConfigError("contact forces are LIGGGHTS' own, which does not hand them on one by one: "
-                        "use conduction overlap, stock or off, friction off, damping off");
+                        "use conduction overlap, stock or off, friction off, damping off, gas_gap "
+                        "off, radiation off");
     if (force->newton_pair)
       throw ConfigError("newton on: must be off");
   });
 }
 
+/// Before lists and ghosts of a run: they must hold what particles notice without touching.
+void FixHeat::setup_pre_exchange() {
+  reach_ = options_.near.reach(0.5 * (neighbor->cutneighmax - neighbor->skin));
+  // LIGGGHTS takes a particle for a ghost within half of this of the border.
+  comm->cutghostuser = std::max(comm->cutghostuser, neighbor->cutneighmax + 2 * reach_);
+}
+
 void FixHeat::setup(int) {
   guard([&] {
     link_walls();
-    if (!begun_)
-      heat_at_start_ = [&] {
-        double heat = heat_of_rank();
-        MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
-        return heat;
-      }();
-    if (!begun_) {
-      const auto radius = options_.contacts.radius;
-      say(fmt::format(
-          "granflux: heat of contacts {}; conduction {}, friction {}, damping {}\n",
-          fused_ ? "by particle subset" : "beside LIGGGHTS' own forces",
-          radius ? std::visit([](const auto& r) { return std::string(r.name); }, *radius) : "off",
-          options_.contacts.friction == particle_subset::FrictionHeat::off      ? "off"
-          : options_.contacts.friction == particle_subset::FrictionHeat::slider ? "slider"
-                                                                                : "speed",
-          options_.contacts.damping ? "on" : "off"));
-    }
-    begun_ = true;
+    if (!heat_at_start_)
+      heat_at_start_ = heat_of_all_ranks();
+    if (!said_)
+      say(effects());
+    said_ = true;
   });
+}
+
+std::string FixHeat::effects() const {
+  const auto& contacts = options_.contacts;
+  const auto& [gap, surroundings] = options_.near;
+  return fmt::format(
+      "granflux: heat of contacts {}; conduction {}, friction {}, damping {}{}{}\n",
+      subsets_ ? "by particle subset" : "beside LIGGGHTS' own forces",
+      contacts.radius
+          ? std::visit([](const auto& r) { return std::string(r.name); }, *contacts.radius)
+          : "off",
+      contacts.friction == particle_subset::FrictionHeat::off      ? "off"
+      : contacts.friction == particle_subset::FrictionHeat::slider ? "slider"
+                                                                   : "speed",
+      contacts.damping ? "on" : "off",
+      gap ? fmt::format(", gas of {} W/(m K) in gaps", gap->conductivity) : "",
+      surroundings ? fmt::format(", radiation, surroundings of {} K", *surroundings) : "");
 }
 
 void FixHeat::link_walls() {
@@ -234,26 +252,37 @@ void FixHeat::link_walls() {
 particle_subset::HeatOfContacts FixHeat::heat_of_contacts() {
   return {.law = &law_,
           .arrays = {.temperature = temperature_->vector_atom,
-                     .rates = rows<HeatRates>(*contacts_),
-                     .walls = rows<WallHeatRates>(*walls_),
-                     .details = wants_details() ? rows<HeatDetails>(*details_) : nullptr}};
+                     .rate = heat_flux_->vector_atom,
+                     .sums = sums_.data(),
+                     .shown = shown()}};
 }
 
-/// They cost more than the sum: where they must be known apart in every step, where they can be
-/// seen, and in the first and last step.
+/// What is received of each kind: it costs more than the sum. Where it can be seen, and in the
+/// first and last step of a run.
 bool FixHeat::wants_details() const {
   const auto now = update->ntimestep;
-  return options_.contacts.damping || now == output->next || now == update->laststep ||
-         now == update->firststep + 1;
+  return now == output->next || now == update->laststep || now == update->firststep + 1;
 }
 
-/// Ghosts take the temperature of their particles; rates of walls start from zero.
+particle_subset::HeatShown FixHeat::shown() const {
+  if (!wants_details())
+    return {};
+  return {.contacts = rows<ContactHeatRates>(*contacts_),
+          .details = rows<HeatDetails>(*details_),
+          .walls = rows<WallHeatRates>(*walls_),
+          .near = rows<NearHeatRates>(*near_)};
+}
+
+/// Ghosts take the temperature of their particles; sums start from zero.
 void FixHeat::pre_force(int) {
   temperature_->do_forward_comm();
-  if (auto* walls = rows<WallHeatRates>(*walls_))
-    std::fill_n(walls, atom->nlocal, WallHeatRates{});
-  if (auto* details = rows<HeatDetails>(*details_); details && wants_details())
-    std::fill_n(details, atom->nlocal, HeatDetails{});
+  std::ranges::fill(sums_, HeatSums{});
+  if (const particle_subset::HeatShown shown = this->shown(); shown.wanted()) {
+    std::fill_n(shown.contacts, atom->nlocal, ContactHeatRates{});
+    std::fill_n(shown.details, atom->nlocal, HeatDetails{});
+    std::fill_n(shown.walls, atom->nlocal, WallHeatRates{});
+    std::fill_n(shown.near, atom->nlocal, NearHeatRates{});
+  }
   if (pair_)
     conduct_by_shape();
 }
@@ -261,8 +290,19 @@ void FixHeat::pre_force(int) {
 /// Along LIGGGHTS' own list, from distances alone.
 void FixHeat::conduct_by_shape() {
   const particle_subset::HeatOfContacts heat = heat_of_contacts();
+  const particle_subset::HeatArrays& arrays = heat.arrays;
   const LAMMPS_NS::NeighList& list = *pair_->list;
-  std::fill_n(heat.arrays.rates, atom->nlocal, HeatRates{});
+  const auto give = [&](int particle, double received, double conductance) {
+    if (particle >= atom->nlocal)
+      return;
+    arrays.rate[particle] += received;
+    sums_.front().conduction += received;
+    if (arrays.shown.wanted()) {
+      arrays.shown.contacts[particle].conduction += received;
+      arrays.shown.details[particle].conductance += conductance;
+    }
+  };
+  std::fill_n(arrays.rate, atom->nlocal, 0.0);
   for (int row = 0; row < list.inum; ++row) {
     const int i = list.ilist[row];
     for (int entry = 0; entry < list.numneigh[i]; ++entry) {
@@ -275,16 +315,9 @@ void FixHeat::conduct_by_shape() {
         continue;
       const double conductance = law_.conductance(law_.pair(atom->type[i], atom->type[j]),
                                                   atom->radius[i], atom->radius[j], overlap, 0);
-      const double heat_to_i =
-          conductance * (heat.arrays.temperature[j] - heat.arrays.temperature[i]);
-      heat.arrays.rates[i].conduction += heat_to_i;
-      if (heat.arrays.details)
-        heat.arrays.details[i].conductance += conductance;
-      if (j < atom->nlocal) {
-        heat.arrays.rates[j].conduction -= heat_to_i;
-        if (heat.arrays.details)
-          heat.arrays.details[j].conductance += conductance;
-      }
+      const double heat_to_i = conductance * (arrays.temperature[j] - arrays.temperature[i]);
+      give(i, heat_to_i, conductance);
+      give(j, -heat_to_i, conductance);
     }
   }
 }
@@ -315,6 +348,8 @@ void FixHeat::show_to_gas(coupling::ParticleView& view) {
 }
 
 void FixHeat::step(coupling::HeatState* gas) {
+  if (options_.near.any())
+    subsets_->add_near_heat(near_law_, heat_of_contacts().arrays);
   const particle_subset::HeatedParticles particles{.temperature = temperature_->vector_atom,
                                                    .carry = carry_->vector_atom,
                                                    .heat_flux = heat_flux_->vector_atom,
@@ -322,46 +357,41 @@ void FixHeat::step(coupling::HeatState* gas) {
                                                    .mass = atom->rmass,
                                                    .type = atom->type,
                                                    .groups = atom->mask,
-                                                   .contacts = rows<HeatRates>(*contacts_),
-                                                   .walls = rows<WallHeatRates>(*walls_),
                                                    .gas = gas};
+  if (wants_details())
+    check_time_step(particles);
   const double dt = update->dt;
-  std::vector<HeatPowers> parts(static_cast<std::size_t>(omp_get_max_threads()));
+  std::vector<particle_subset::StepPowers> parts(sums_.size());
   particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
     parts[std::size_t(omp_get_thread_num())] =
         step_temperature(particles, materials_.capacity, held_, dt, range);
   });
-  powers_ = {};
-  for (const HeatPowers& part : parts)
-    powers_ += part;
-  if (wants_details())
-    sum_up_details(particles);
-  energies_.conduction += dt * powers_.conduction;
-  energies_.walls += dt * powers_.walls;
-  energies_.made += dt * powers_.made;
-  if (options_.contacts.damping)
-    energies_.damping += dt * detail_.damping;
-  energies_.convection += dt * powers_.convection;
-  energies_.source += dt * powers_.source;
-  energies_.to_walls += dt * powers_.to_walls;
-  energies_.held += dt * powers_.held;
+  particle_subset::StepPowers stepped;
+  for (const auto& part : parts)
+    stepped += part;
+  HeatSums contacts;
+  for (const HeatSums& part : sums_)
+    contacts += part;
+  powers_ = {.conduction = contacts.conduction,
+             .walls = contacts.walls,
+             .friction = contacts.friction,
+             .damping = contacts.damping,
+             .convection = stepped.convection,
+             .source = stepped.source,
+             .to_walls = contacts.to_walls,
+             .held = stepped.held,
+             .radiation = contacts.radiation};
+  books_.book(powers_, dt);
 }
 
-void FixHeat::sum_up_details(const particle_subset::HeatedParticles& particles) {
-  const double dt = update->dt;
-  std::vector<DetailSums> parts(static_cast<std::size_t>(omp_get_max_threads()));
-  particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
-    parts[std::size_t(omp_get_thread_num())] = particle_subset::sum_details(
-        rows<HeatDetails>(*details_), particles, materials_.capacity, dt, range);
-  });
-  detail_ = {};
-  for (const DetailSums& part : parts)
-    detail_ += part;
-  if (detail_.conduction_number > 1)
+void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles) const {
+  const double number = conduction_number(shown(), particles, materials_.capacity, update->dt,
+                                          {.begin = 0, .end = atom->nlocal});
+  if (number > 1)
     error->one(FLERR, fmt::format("fix {} granflux/heat: the time step of {} s is {:.3g} times the "
-                                  "time in which a particle's contacts would take it to the "
-                                  "temperature of its neighbours: use a smaller one",
-                                  id, dt, detail_.conduction_number)
+                                  "time in which contacts, gaps and radiation would take a "
+                                  "particle to the temperature around it: use a smaller one",
+                                  id, update->dt, number)
                           .c_str());
 }
 
@@ -371,6 +401,12 @@ double FixHeat::heat_of_rank() const {
     heat += atom->rmass[i] * materials_.capacity[std::size_t(atom->type[i]) - 1] *
             (temperature_->vector_atom[i] + carry_->vector_atom[i]);
   return heat.value();
+}
+
+double FixHeat::heat_of_all_ranks() const {
+  double heat = heat_of_rank();
+  MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
+  return heat;
 }
 
 /// Once a step, by all ranks.
@@ -397,21 +433,17 @@ void FixHeat::look_at_temperatures() {
   }
   mine.heat = heat_of_rank();
   mine.particles = atom->nlocal;
-  const Energies& e = energies_;
-  const double friction = e.made.value() - e.damping.value();
-  reduced_ = {powers_.conduction,   powers_.walls,    detail_.friction,   detail_.damping,
-              powers_.convection,   powers_.source,   powers_.to_walls,   powers_.held,
-              e.conduction.value(), e.walls.value(),  friction,           e.damping.value(),
-              e.convection.value(), e.source.value(), e.to_walls.value(), e.held.value()};
-  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), int(reduced_.size()), MPI_DOUBLE, MPI_SUM, world);
+  reduced_ = {powers_, books_.value()};
+  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), doubles(sizeof reduced_), MPI_DOUBLE, MPI_SUM,
+                world);
   double sums[] = {mine.heat, mine.capacity, mine.biot_sum, mine.particles};
   double extremes[] = {mine.high, -mine.low, mine.biot_max};
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world);
-  // Received by particles, less what those of fixed temperature passed on.
-  double received = -reduced_[15];
-  for (std::size_t n = 8; n < 14; ++n)
-    received += reduced_[n];
+  // By particles, less what those of fixed temperature passed on.
+  const HeatPowers& e = reduced_[1];
+  const double received = e.conduction + e.walls + e.friction + e.damping + e.convection +
+                          e.source + e.radiation - e.held;
   temperatures_ = {.heat = sums[0],
                    .capacity = sums[1],
                    .low = -extremes[1],
@@ -419,17 +451,17 @@ void FixHeat::look_at_temperatures() {
                    .biot_sum = sums[2],
                    .biot_max = extremes[2],
                    .particles = sums[3],
-                   .carried = sums[0] - heat_at_start_ - received};
+                   .carried = sums[0] - heat_at_start_.value_or(sums[0]) - received};
   warn_of_biot_number();
   warn_of_radiation();
 }
 
 void FixHeat::warn_of_radiation() {
-  if (temperatures_.high <= radiation_limit || warned_of_radiation_)
+  if (options_.near.surroundings || temperatures_.high <= radiation_limit || warned_of_radiation_)
     return;
   warned_of_radiation_ = true;
   say(fmt::format("granflux: WARNING: the hottest particle has {:.0f} K: above {} K radiation "
-                  "matters, which is not computed\n",
+                  "matters, which is off (keyword radiation)\n",
                   temperatures_.high, radiation_limit));
 }
 
@@ -468,22 +500,40 @@ double FixHeat::compute_vector(int n) {
   look_at_temperatures();
   const Temperatures& t = temperatures_;
   const bool any = t.particles > 0;
-  switch (n) {
-  case 0:
-    return any ? t.heat / t.capacity : 0;
-  case 1:
-    return any ? t.low : 0;
-  case 2:
-    return any ? t.high : 0;
-  case 3:
-    return any ? t.biot_sum / t.particles : 0;
-  case 4:
-    return t.biot_max;
-  case vector_length - 1:
-    return t.carried;
-  default:
-    return reduced_[std::size_t(n - 5)];
-  }
+  const auto& [powers, energies] = reduced_;
+  const std::array<double, vector_length> values{any ? t.heat / t.capacity : 0,
+                                                 any ? t.low : 0,
+                                                 any ? t.high : 0,
+                                                 any ? t.biot_sum / t.particles : 0,
+                                                 t.biot_max,
+                                                 powers.conduction,
+                                                 powers.walls,
+                                                 powers.friction,
+                                                 powers.damping,
+                                                 powers.convection,
+                                                 powers.source,
+                                                 powers.to_walls,
+                                                 powers.held,
+                                                 energies.conduction,
+                                                 energies.walls,
+                                                 energies.friction,
+                                                 energies.damping,
+                                                 energies.convection,
+                                                 energies.source,
+                                                 energies.to_walls,
+                                                 energies.held,
+                                                 t.carried,
+                                                 powers.radiation,
+                                                 energies.radiation};
+  return values[std::size_t(n)];
+}
+
+void FixHeat::write_restart(FILE* file) {
+  guard([&] { write_heat_books(books_, heat_at_start_, file, world); });
+}
+
+void FixHeat::restart(char* block) {
+  guard([&] { books_ = read_heat_books(block, heat_at_start_, world); });
 }
 
 } // namespace granflux::liggghts

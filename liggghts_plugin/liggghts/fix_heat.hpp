@@ -4,14 +4,15 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <liggghts/fix.h>
 
-#include <granflux/coupling/compensated_sum.hpp>
 #include <granflux/coupling/particle_view.hpp>
 
+#include "heat_books.hpp"
 #include "heat_materials.hpp"
 #include "heat_options.hpp"
 #include "particle_subset/heat_port.hpp"
@@ -22,10 +23,15 @@ class FixPropertyAtom;
 class PairGran;
 } // namespace LAMMPS_NS
 
+namespace granflux::particle_subset {
+class PairGran;
+} // namespace granflux::particle_subset
+
 namespace granflux::liggghts {
 
 /// fix ID all granflux/heat initial_temperature T ...: a temperature for every particle, conduction
-/// through contacts and the heat of friction (docs/reference/fix_granflux_heat.md).
+/// through contacts and gaps, radiation, the heat of friction
+/// (docs/reference/fix_granflux_heat.md).
 class FixHeat : public LAMMPS_NS::Fix, public particle_subset::HeatPort {
 public:
   FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
@@ -34,6 +40,7 @@ public:
   void post_create() override;
   void pre_delete(bool unfix) override;
   void init() override;
+  void setup_pre_exchange() override;
   void setup(int) override;
   void pre_force(int) override;
   void pre_final_integrate() override;
@@ -41,8 +48,11 @@ public:
   /// Heat of all particles, sum of m c T [J].
   double compute_scalar() override;
   double compute_vector(int n) override;
+  void write_restart(FILE* file) override;
+  void restart(char* block) override;
 
   [[nodiscard]] particle_subset::HeatOfContacts heat_of_contacts() override;
+  [[nodiscard]] double reach() const override { return reach_; }
 
   /// In each run between init() and the first step: the gas brings about the steps of temperature
   /// itself, by step_with_gas().
@@ -54,10 +64,6 @@ public:
   void show_to_gas(coupling::ParticleView& view);
 
 private:
-  /// Heat received since the fix was made [J], of this rank.
-  struct Energies {
-    coupling::CompensatedSum conduction, walls, made, damping, convection, source, to_walls, held;
-  };
   /// Over all particles of all ranks.
   struct Temperatures {
     double heat = 0;     ///< sum m c T [J]
@@ -75,11 +81,14 @@ private:
   void link_walls();
   void conduct_by_shape();
   void step(coupling::HeatState* gas);
-  void sum_up_details(const particle_subset::HeatedParticles& particles);
+  void check_time_step(const particle_subset::HeatedParticles& particles) const;
+  [[nodiscard]] particle_subset::HeatShown shown() const;
   void look_at_temperatures();
   void warn_of_biot_number();
   void warn_of_radiation();
   [[nodiscard]] double heat_of_rank() const;
+  [[nodiscard]] double heat_of_all_ranks() const;
+  [[nodiscard]] std::string effects() const;
   [[nodiscard]] int held_bits() const;
   void say(const std::string& text) const;
 
@@ -90,23 +99,25 @@ private:
   // Kept by LIGGGHTS for each particle.
   LAMMPS_NS::FixPropertyAtom *temperature_ = nullptr, *carry_ = nullptr, *heat_flux_ = nullptr,
                              *source_ = nullptr, *contacts_ = nullptr, *details_ = nullptr,
-                             *walls_ = nullptr;
+                             *walls_ = nullptr, *near_ = nullptr;
   std::vector<std::string> own_properties_;
 
-  bool fused_ = false;                  // in the contact loops of the particle subsets
-  LAMMPS_NS::PairGran* pair_ = nullptr; // where it is not
+  particle_subset::PairGran* subsets_ = nullptr; // in whose contact loops heat is made, or null:
+  LAMMPS_NS::PairGran* pair_ = nullptr;          // beside those of LIGGGHTS
+  particle_subset::NearHeat near_law_;
+  double reach_ = 0;                            // of near_law_ [m]
+  std::vector<particle_subset::HeatSums> sums_; // of each thread, of this step
   int held_ = 0;
   bool steps_by_gas_ = false;
   std::vector<double> heat_capacity_; // of each particle [J/K]
   std::vector<std::uint8_t> is_held_;
-  bool begun_ = false;                 // a run has begun
-  double heat_at_start_ = 0;           // of all ranks [J]
-  particle_subset::HeatPowers powers_; // of the last step, this rank
-  particle_subset::DetailSums detail_; // of the last step that asked for details, this rank
-  Energies energies_;
+  bool said_ = false;                   // what is in use
+  std::optional<double> heat_at_start_; // of all ranks when the books were opened [J]
+  HeatPowers powers_;                   // of the last step, this rank
+  HeatBooks books_;                     // of this rank
   Temperatures temperatures_;
-  std::array<double, 16> reduced_{}; // powers and energies of all ranks
-  LAMMPS_NS::bigint looked_at_ = -1; // step of temperatures_
+  std::array<HeatPowers, 2> reduced_{}; // of all ranks: powers [W] and energies [J]
+  LAMMPS_NS::bigint looked_at_ = -1;    // step of temperatures_
   bool warned_of_biot_ = false, warned_of_radiation_ = false;
 };
 

@@ -49,12 +49,23 @@ std::vector<double> positive_property(LAMMPS_NS::LAMMPS& lammps, const char* nam
   return *values;
 }
 
+std::vector<double> emissivities(LAMMPS_NS::LAMMPS& lammps) {
+  std::vector<double> values = positive_property(lammps, "emissivity", "from above 0 to 1");
+  for (std::size_t type = 0; type < values.size(); ++type)
+    if (values[type] > 1)
+      throw ConfigError(
+          fmt::format("emissivity of type {} is {}: must be at most 1", type + 1, values[type]));
+  return values;
+}
+
 } // namespace
 
-HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps,
-                                  const particle_subset::ContactHeatOptions& options) {
+HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps, const HeatOptions& wanted) {
   using particle_subset::FrictionHeat;
+  const particle_subset::ContactHeatOptions& options = wanted.contacts;
   HeatMaterials read;
+  if (wanted.near.surroundings)
+    read.emissivity = emissivities(lammps);
   read.capacity = positive_property(lammps, "thermalCapacity", "J/(kg K)");
   const std::size_t types = read.capacity.size();
   const bool needs_conductivity =

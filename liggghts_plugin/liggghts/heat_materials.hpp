@@ -6,7 +6,7 @@
 
 #include <liggghts/pointers.h>
 
-#include "particle_subset/contact_heat.hpp"
+#include "heat_options.hpp"
 
 namespace granflux::liggghts {
 
@@ -15,10 +15,10 @@ struct HeatMaterials {
   std::vector<double> capacity; ///< of each type [J/(kg K)]
   std::vector<particle_subset::ThermalMaterial> materials;
   std::vector<double> overlap_ratio; ///< of each pair of types
+  std::vector<double> emissivity;    ///< of each type, where there is radiation
 };
 
 /// Throws ConfigError where a property that the options call for is missing or not positive.
-HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps,
-                                  const particle_subset::ContactHeatOptions& options);
+HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps, const HeatOptions& wanted);
 
 } // namespace granflux::liggghts

@@ -19,7 +19,8 @@ namespace {
 using particle_subset::FrictionHeat;
 
 const std::vector<std::string> keywords{
-    "initial_temperature", "conduction", "friction", "damping", "wall_share", "fixed_temperature"};
+    "initial_temperature", "conduction", "friction",  "damping",          "wall_share", "gas_gap",
+    "gas_layer",           "least_gap",  "radiation", "fixed_temperature"};
 
 double number(const std::string& key, const std::string& word, double low, double high,
               const char* allowed) {
@@ -51,6 +52,8 @@ FrictionHeat friction_heat(const std::string& word) {
 
 HeatOptions read_heat_options(std::span<char*> words) {
   HeatOptions options;
+  coupling::GasGap gap{.conductivity = 0};
+  std::string of_gap;
   options.contacts.radius = coupling::HertzRadius{};
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const std::string key = words[i];
@@ -72,9 +75,28 @@ HeatOptions read_heat_options(std::span<char*> words) {
       options.contacts.damping = switched_on(key, value);
     else if (key == "wall_share")
       options.contacts.wall_share = number(key, value, 0, 1, "a share from 0 to 1");
+    else if (key == "gas_gap")
+      gap.conductivity = value == "off" ? 0
+                                        : number(key, value, 1e-6, 1e3,
+                                                 "off or a conductivity from 1e-6 to 1e3 W/(m K)");
+    else if (key == "gas_layer")
+      of_gap = key, gap.layer = number(key, value, 1e-3, 1, "from 0.001 to 1 of the radius");
+    else if (key == "least_gap")
+      of_gap = key, gap.least_gap = number(key, value, 1e-12, 1e-3, "from 1e-12 to 1e-3 m");
+    else if (key == "radiation" && value == "off")
+      options.near.surroundings.reset();
+    else if (key == "radiation")
+      options.near.surroundings =
+          number(key, value, 0, 1e5, "off or the temperature of the surroundings, 0 to 1e5 K");
     else
       options.fixed_groups.push_back(value);
   }
+  if (gap.conductivity > 0)
+    options.near.gas_gap = gap;
+  else if (!of_gap.empty())
+    throw ConfigError(fmt::format("{} is of no use without gas_gap: give the conductivity of the "
+                                  "gas [W/(m K)]",
+                                  of_gap));
   if (options.initial_temperature == 0)
     throw ConfigError("keyword initial_temperature is missing: K");
   return options;

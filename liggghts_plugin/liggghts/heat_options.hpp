@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "particle_subset/contact_heat.hpp"
+#include "particle_subset/near_heat.hpp"
 
 namespace granflux::liggghts {
 
@@ -14,6 +15,7 @@ namespace granflux::liggghts {
 struct HeatOptions {
   double initial_temperature = 0; ///< K
   particle_subset::ContactHeatOptions contacts;
+  particle_subset::NearHeatOptions near;
   std::vector<std::string> fixed_groups; ///< whose temperatures stay
 };
 

@@ -37,6 +37,12 @@ class BadInput(HostTest):
             (f"{GOOD} fixed_temperature nobody", "fixed_temperature nobody", "no such group"),
             (f"{GOOD} conducton hertz", "unknown keyword conducton", "conduction"),
             (f"{GOOD} friction", "friction has no value"),
+            (f"{GOOD} gas_gap thick", "gas_gap thick", "off or a conductivity", "W/(m K)"),
+            (f"{GOOD} gas_layer 0.3", "gas_layer is of no use without gas_gap"),
+            (f"{GOOD} gas_gap 0.03 gas_layer 2", "gas_layer 2", "0.001 to 1"),
+            (f"{GOOD} gas_gap 0.03 least_gap 0", "least_gap 0", "1e-12 to 1e-3 m"),
+            (f"{GOOD} radiation on", "radiation on", "temperature of the surroundings"),
+            (f"{GOOD} radiation 300", "needs fix property/global emissivity"),
         ):
             with self.subTest(words=words):
                 self.refused(words, *texts)
@@ -49,6 +55,13 @@ class BadInput(HostTest):
             with self.subTest(name=name):
                 self.refused(GOOD, name, "peratomtype", without=name)
 
+    def test_emissivity(self):
+        self.refused(
+            f"{GOOD} radiation 300",
+            "emissivity of type 2 is 1.2: must be at most 1",
+            before="fix em all property/global emissivity peratomtype 0.9 1.2\n",
+        )
+
     def test_two_of_them(self):
         self.refused(GOOD, "fix heat is one already", after=f"fix more all granflux/heat {GOOD}\n")
 
@@ -58,6 +71,7 @@ class BadInput(HostTest):
     def test_forces_by_the_host(self):
         self.refused(GOOD, "conduction overlap, stock or off", options=("-subset", "off"))
         self.refused(f"{GOOD} conduction overlap", "friction off", options=("-subset", "off"))
+        self.refused(f"{GOOD} conduction off friction off gas_gap 0.03", "gas_gap off", options=("-subset", "off"))
         self.refused(
             f"{GOOD} conduction overlap friction off",
             "fix floor wall/gran",

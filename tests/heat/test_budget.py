@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The GranFlux developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is booked is what temperatures change by, and what motion loses."""
+"""What is booked is what temperatures change by, what the sources come to, and what motion loses."""
 
 import math
 import unittest
 
-from host import HostTest, last_snapshot, thermo_rows
+from host import CASE, HostTest, bed, couple, last_snapshot, thermo_rows
 from packed_box import data_file as box_file
 from packed_box import script
 from warm_spheres import data_file, head, mass, thermo, wall
@@ -15,7 +15,8 @@ TEMPERATURES = 'dump t all custom {every} {name} id type mass f_Temp f_heatFlux\
 
 # The entries of the fix vector, by their numbers.
 CARRIED = 22
-ENERGIES = {"conduction": 14, "walls": 15, "friction": 16, "damping": 17, "convection": 18, "source": 19, "to walls": 20, "held": 21}
+ENERGIES = {"conduction": 14, "walls": 15, "friction": 16, "damping": 17, "convection": 18, "source": 19, "to walls": 20, "held": 21, "radiation": 24}
+GAINS = ("conduction", "walls", "friction", "damping", "convection", "source", "radiation")
 
 HEAT = """
 fix             yo all property/global youngsModulusOriginal peratomtype 70e9 190e9
@@ -24,7 +25,9 @@ fix             tc all property/global thermalCapacity peratomtype 700 900
 fix             low all wall/gran {model} primitive type 1 zplane 0 temperature 500
 fix             high all wall/gran {model} primitive type 2 zplane {top} temperature 350
 group           held id 5 6 7
-fix             heat all granflux/heat initial_temperature 300 damping on fixed_temperature held
+fix             em all property/global emissivity peratomtype 0.9 0.6
+fix             heat all granflux/heat initial_temperature 300 damping on fixed_temperature held &
+                gas_gap 0.03 radiation 450
 {more}
 """
 
@@ -35,6 +38,10 @@ def thermal_energy(atoms):
 
 def budget_entries(row, first=2):
     return dict(zip(ENERGIES, row[first:]))
+
+
+def received(energy):
+    return math.fsum(energy[name] for name in GAINS) - energy["held"]
 
 
 class Ledger(HostTest):
@@ -69,15 +76,14 @@ class Ledger(HostTest):
 
     def check(self, begin, atoms, row):
         energy = budget_entries(row)
-        for name in ("walls", "friction", "damping", "source", "to walls", "held"):
+        for name in ("walls", "friction", "damping", "source", "to walls", "held", "radiation"):
             self.assertNotEqual(energy[name], 0, name)
         exchanged = sum(abs(e) for e in energy.values())
         self.assertLess(abs(energy["conduction"]), 1e-12 * exchanged)
-        received = sum(energy[n] for n in ("conduction", "walls", "friction", "damping", "source")) - energy["held"]
         change = thermal_energy(atoms) - begin
-        self.assertLess(abs(change - received), 1e-10 * exchanged)
+        self.assertLess(abs(change - received(energy)), 1e-10 * exchanged)
         # A slip of 5 % in any of them would show.
-        for name in ("walls", "friction", "damping", "source", "held"):
+        for name in ("walls", "friction", "damping", "source", "held", "radiation"):
             self.assertGreater(0.05 * abs(energy[name]), 1e-8 * exchanged, name)
 
     def test_booked_is_what_temperatures_change_by(self):
@@ -103,16 +109,106 @@ class Ledger(HostTest):
             self.assertAlmostEqual(other[i][2], line[2], delta=1e-9)
 
     def test_restart(self):
-        script_ = self.box_script()
-        self.run_script(script_.replace("run 400\n", "run 200\nrun 200\n"))
-        whole = last_snapshot(self.read("temperatures"))
-        half = script_.replace("run 400\n", "run 200\nwrite_restart half.restart\n")
-        self.run_script(half)
-        again = script_.replace("read_data       data.box", "read_restart half.restart")
-        again = again[: again.index("run 0\n")]
-        self.run_script(again + TEMPERATURES.format(every=400, name="again") + "run 200\n")
-        other = last_snapshot(self.read("again"))
-        self.assertEqual([r[2] for r in whole.values()], [r[2] for r in other.values()])
+        """Temperatures and books go on to the last bit on as many ranks."""
+        text = self.box_script()
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                output = self.run_script(text.replace("run 400\n", "run 200\nrun 200\n"), ranks=ranks)
+                whole, books = last_snapshot(self.read("temperatures")), thermo_rows(output)[-1]
+                self.run_script(text.replace("run 400\n", "run 200\nwrite_restart half.restart\n"), ranks=ranks)
+                begin, rest = text.replace("read_data       data.box", "read_restart half.restart").split("run 0\n", 1)
+                rest = rest[rest.rindex("dump t") :].replace("run 400", "run 200")
+                for other_ranks in (ranks, 3 - ranks):
+                    output = self.run_script(begin + rest, ranks=other_ranks)
+                    again, again_books = last_snapshot(self.read("temperatures")), thermo_rows(output)[-1]
+                    if other_ranks == ranks:
+                        self.assertEqual(again, whole)
+                        self.assertEqual(again_books, books)
+                    exchanged = sum(abs(e) for e in books[2:])
+                    for name, a, b in zip([*ENERGIES, "carried"], again_books[2:], books[2:]):
+                        self.assertAlmostEqual(a, b, delta=1e-10 * exchanged, msg=name)
+                    self.assertNotEqual(books[4], 0)
+
+
+ROLLING = "fix rf all property/global coefficientRollingFriction peratomtypepair 1 0.05\n"
+EVERY = """
+fix             yo all property/global youngsModulusOriginal peratomtype 70e9
+fix             pr all property/global poissonsRatio peratomtype 0.3
+fix             tk all property/global thermalConductivity peratomtype 1
+fix             tc all property/global thermalCapacity peratomtype 5
+fix             em all property/global emissivity peratomtype 0.8
+group           held id 5 6 7
+fix             heat all granflux/heat initial_temperature 400 damping on gas_gap 0.026 radiation 600 &
+                wall_share 0.3 fixed_temperature held
+"""
+ENERGY = "[energy]\nheat_capacity = 1000\nconductivity = 0.026\ninitial_temperature = 300\n"
+
+
+class EveryEffect(HostTest):
+    """Spheres that collide in gas between walls, with every effect on: the books are the sums of the
+    sources as they are dumped in every step, and what temperatures change by."""
+
+    PARTS = "f_heatContact[1] f_heatContact[2] f_heatDetail[1] f_heatDetail[2] f_heatWall[1] f_heatWall[2] f_heatNear[1] f_heatNear[2]"
+
+    def script(self, steps):
+        text = bed().replace("tangential history", "tangential history rolling_friction cdt")
+        for place, temperature in (("zplane 0", 500), ("xplane 0", 350)):
+            text = text.replace(f"type 1 {place} ", f"type 1 {place} temperature {temperature} ")
+        first_wall = text.index("fix             zlow")
+        return (
+            text[:first_wall]
+            + ROLLING
+            + text[first_wall:]
+            + EVERY
+            + couple(10)
+            + "run 0\ngroup hot id <= 60\nset group hot property/atom Temp 450\n"
+            + "set group hot property/atom heatSource 1e-4\nrun 200\n"
+            + f"dump t all custom 1 steps id mass f_Temp f_heatFlux f_heatSource {self.PARTS}\n"
+            + 'dump_modify t sort id format "%d' + 12 * " %.17g" + '"\n'
+            + thermo(" ".join(f"f_heat[{n}]" for n in [*ENERGIES.values(), CARRIED]) + " f_gas[31] f_gas[32]", steps)
+            + f"run {steps}\n"
+        )
+
+    def test_books_are_the_sum_of_the_sources(self):
+        steps, dt = 200, 1e-5
+        case = CASE.replace("velocity = [0, 0, 0.5]", "velocity = [0, 0, 0.5]\ntemperature = 300")
+        self.write("case.toml", case + ENERGY)
+        for ranks, threads in ((1, 1), (2, 2)):
+            with self.subTest(ranks=ranks, threads=threads):
+                output = self.run_script(self.script(steps), ranks=ranks, options=("-threads", str(threads)))
+                first, last = thermo_rows(output)[-2:]
+                booked = budget_entries([b - a for a, b in zip(first, last)])
+                self.check(booked, dt)
+                self.assertLess(last[-2], 1e-10)  # of the gas's heat
+                self.assertLess(last[-1], 1e-10)  # handed over between particles and gas
+
+    def check(self, booked, dt):
+        parts = self.read("steps").split("ITEM: ATOMS")
+        frames = [last_snapshot("ITEM: ATOMS" + part.partition("ITEM: TIMESTEP")[0]) for part in parts[1:]]
+        found = {name: [] for name in ("conduction", "walls", "friction", "damping", "convection", "source", "to walls", "held", "radiation")}
+        for frame in frames[1:]:
+            for number, (_, _, flux, source, pp, made, rubbed, damped, wall, to_wall, gap, radiated) in frame.items():
+                self.assertAlmostEqual(made, rubbed + damped, delta=1e-14 * abs(made) + 1e-25)
+                convection = flux - pp - made - wall - gap - radiated
+                found["conduction"] += [dt * pp, dt * gap]
+                found["walls"].append(dt * wall)
+                found["friction"].append(dt * rubbed)
+                found["damping"].append(dt * damped)
+                found["convection"].append(dt * convection)
+                found["source"].append(dt * source)
+                found["to walls"].append(dt * to_wall)
+                found["radiation"].append(dt * radiated)
+                if number in (5, 6, 7):
+                    found["held"].append(dt * (flux + source))
+        exchanged = sum(abs(e) for e in booked.values())
+        for name, values in found.items():
+            self.assertAlmostEqual(booked[name], math.fsum(values), delta=1e-10 * exchanged, msg=name)
+            if name != "conduction":
+                self.assertGreater(0.05 * abs(booked[name]), 1e-8 * exchanged, name)
+            else:  # between particles: nothing in all, but something each
+                self.assertGreater(math.fsum(map(abs, values)), 1e-3 * exchanged)
+        heat = [math.fsum(row[0] * 5 * row[1] for row in frame.values()) for frame in (frames[0], frames[-1])]
+        self.assertAlmostEqual(heat[1] - heat[0], received(booked), delta=1e-10 * exchanged)
 
 
 class Insertion(HostTest):
@@ -157,6 +253,7 @@ class EnergyOfMotion(HostTest):
         steps = round(time / dt)
         output = self.run_script(
             head(dt=dt, **stiffness)
+            + "fix rf all property/global coefficientRollingFriction peratomtypepair 2 0.3 0.3 0.3 0.3\n"
             + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 damping on conduction off\n"
             + "compute rot all erotate/sphere\n"
             + thermo("ke c_rot f_heat[16] f_heat[17]", steps)
@@ -168,10 +265,14 @@ class EnergyOfMotion(HostTest):
         self.assertGreater(last[4] if measure == "friction" else last[5], 0.2 * made)
         return (lost - made) / lost
 
-    def check(self, name, spheres, stiffness, measure):
+    def errors(self, name, spheres, stiffness, measure):
         # Apart before and after: no energy is left in springs.
         errors = [self.error(dt, 1.2e-3, spheres, stiffness, measure) for dt in (4e-6, 2e-6, 1e-6, 5e-7)]
         print(f"{name}: energy not accounted for, of what is lost:", *(f"{e:.2e}" for e in errors))
+        return errors
+
+    def check(self, *case):
+        errors = self.errors(*case)
         self.assertLess(abs(errors[-1]), 2e-4)
         self.assertGreater(math.log2(abs(errors[0] / errors[-1])) / 3, 1.8)
 
@@ -192,6 +293,19 @@ class EnergyOfMotion(HostTest):
             (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, -0.1, 0), (0, 0, 50)),
         )
         self.check("sliding", spheres, dict(kn=1000, kt=300, gn=0, gt=2e-3, mu=0.2), "friction")
+
+    def test_rolling_friction(self):
+        # Spheres that spin against each other as they meet.
+        spheres = self.pairs(
+            0.2 * 4e-6,
+            (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0, 0), (0, 100, 200)),
+            (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, 0, 0), (0, -300, 50)),
+        )
+        stiffness = dict(kn=1000, kt=0, gn=0, mu=0)
+        errors = self.errors("rolling", spheres, dict(stiffness, tangential="history rolling_friction cdt"), "friction")
+        # So small that other errors of the last digits show at the shortest step.
+        self.assertLess(abs(errors[-1]), 1e-6)
+        self.assertGreater(math.log2(abs(errors[0] / errors[2])) / 2, 1.8)
 
 
 if __name__ == "__main__":

@@ -89,6 +89,37 @@ class SlipToRoll(HostTest):
             self.assertEqual(rows[-1][3:], [0, 0, 0, 300])
 
 
+class RollingFriction(HostTest):
+    """A sphere that rolls against a rolling friction m_r loses 7/10 m (v0^2 - v^2), with v = v0 - 5/7 m_r
+    g t: all of it is heat."""
+
+    ROLLING = 0.05
+
+    def run_rolling(self, model, time=0.02, dt=1e-6):
+        height, spin = resting_height(1e4), SPEED / resting_height(1e4)
+        self.write("data.spheres", data_file([(1, DIAMETER, DENSITY, (0.0, 0.0, height), (SPEED, 0, 0), (0, spin, 0))]))
+        steps = round(time / dt)
+        text = rolling_script("wall_share 0.25", steps=steps, every=steps, dt=dt, mu=0.5, gt=0.05)
+        text = text.replace("tangential history", f"tangential history rolling_friction {model}")
+        text = text.replace("fix floor", "fix rf all property/global coefficientRollingFriction peratomtypepair 2" + 4 * f" {self.ROLLING}" + "\nfix floor")
+        text = text.replace(f"run {steps}", "compute rot all erotate/sphere\nthermo_style custom step atoms ke c_rot v_v f_heat[16] f_heat[20]\nthermo_modify format float %.17g\n" + f"run {steps}")
+        first, last = thermo_rows(self.run_script(text))
+        return first[2] + first[3], last[2] + last[3], last[4], last[5], last[6]
+
+    def test_all_that_it_loses_is_heat(self):
+        time = 0.02
+        speed = SPEED - 5 / 7 * self.ROLLING * GRAVITY * time
+        closed = 0.7 * MASS * (SPEED**2 - speed**2)
+        for model in ("cdt", "epsd2"):
+            with self.subTest(model=model):
+                before, after, found, to_particle, to_wall = self.run_rolling(model, time)
+                self.assertAlmostEqual(found / speed, 1, delta=2e-3)
+                self.assertAlmostEqual((to_particle + to_wall) / closed, 1, delta=2e-3)
+                self.assertAlmostEqual((to_particle + to_wall) / (before - after), 1, delta=1e-3)
+                self.assertAlmostEqual(to_wall / to_particle, 1 / 3, delta=1e-12)
+                print(model, "heat over closed form, over what motion loses:", (to_particle + to_wall) / closed, (to_particle + to_wall) / (before - after))
+
+
 class SteadyDrag(HostTest):
     """Spheres held in place while a surface slides along: mu N v, at a wall and between spheres."""
 

@@ -27,6 +27,7 @@ struct Dissipation {
   /// By Eq. 8 of Amritkar, Deb, Tafti (2014), mu |F_n| |slip| while the contact slides: its parts.
   double slider_force = 0, slip_squared = 0; ///< N, 0 while it sticks; m2/s2
   double damping = 0;                        ///< by dashpots
+  double rolling = 0;                        ///< by rolling friction
 
   [[nodiscard]] double sliding_by_speed() const { return slider_force * std::sqrt(slip_squared); }
 };
@@ -35,6 +36,13 @@ struct Dissipation {
 struct TangentialForce {
   Vec3 force;
   Dissipation heat;
+};
+
+/// Of rolling friction, with what it turns into heat.
+struct RollingTorque {
+  Vec3 on_j;         ///< the opposite on i
+  double sliding;    ///< power of a slider in it [W]
+  Vec3 against_spin; ///< the part whose work on the relative spin is heat
 };
 
 /// Slip at the middle of the two half steps of velocity around a force: the force changes it in

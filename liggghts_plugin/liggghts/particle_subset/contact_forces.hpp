@@ -11,8 +11,8 @@
 namespace granflux::particle_subset {
 
 /// The contact forces of one thread: goes along its rows, takes the pairs that touch and hands them
-/// to the law in batches. Writes only what belongs to the particles of the range. Heat: HeatBatch,
-/// or WithoutHeat where there is none.
+/// to the law in batches. Writes only what belongs to the particles of the range. Heat: a
+/// HeatBatch, or WithoutHeat where there is none.
 template <class Law, bool one_material, class Heat> class ContactForces {
 public:
   using Constants = typename Law::Constants;
@@ -72,7 +72,9 @@ private:
     __builtin_prefetch(p_.radius + partner);
   }
 
-  /// What gather and scatter will want of a pair comes from far while other pairs are measured.
+  /// What gather and scatter will want of a pair comes from far while other pairs are measured. Not
+  /// what heat wants: its arrays are so dense that the machine fetches them ahead by itself, and
+  /// fetching them here took a tenth of the loop.
   void prefetch(const ContactRows& rows, int e, int p) const {
     __builtin_prefetch(p_.velocity + p);
     __builtin_prefetch(p_.mass + p);
@@ -83,8 +85,6 @@ private:
       __builtin_prefetch(p_.spin + p);
       __builtin_prefetch(p_.torque + p, 1);
     }
-    if constexpr (Heat::acts)
-      heat_.prefetch(p);
   }
 
   void finish(ContactRows& rows, int count) {
@@ -161,15 +161,15 @@ private:
       }
       // Along a row the force on its particle stays in registers.
       Vec3 force = p_.force[i], torque = p_.torque[i];
-      [[maybe_unused]] HeatRates rates;
+      [[maybe_unused]] double rate = 0;
       if constexpr (Heat::acts)
-        rates = heat_.rates(i);
+        rate = heat_.rate(i);
       for (; k < count && batch_.i[k] == i; ++k) {
         force += batch_.force.at(k);
         if constexpr (Law::turns)
           torque += batch_.torque_i.at(k);
         if constexpr (Heat::acts)
-          heat_.add_to_i(rates, k);
+          rate += heat_.rate_of_i(k);
         if (own_.holds(batch_.j[k]))
           add_to_partner(k);
         put_memory(rows, k);
@@ -178,7 +178,7 @@ private:
       if constexpr (Law::turns)
         p_.torque[i] = torque;
       if constexpr (Heat::acts)
-        heat_.rates(i) = rates;
+        heat_.rate(i) = rate;
     }
   }
 

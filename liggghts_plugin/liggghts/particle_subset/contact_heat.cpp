@@ -3,9 +3,21 @@
 
 #include "contact_heat.hpp"
 
+#include <omp.h>
+
 #include <granflux/coupling/contact_heat/conductance.hpp>
 
 namespace granflux::particle_subset {
+
+HeatSums& HeatSums::operator+=(const HeatSums& o) & {
+  conduction += o.conduction;
+  friction += o.friction;
+  damping += o.damping;
+  walls += o.walls;
+  to_walls += o.to_walls;
+  radiation += o.radiation;
+  return *this;
+}
 
 ContactHeat::ContactHeat(const ContactHeatOptions& options,
                          std::span<const ThermalMaterial> materials,
@@ -56,24 +68,33 @@ double ContactHeat::conductance_at_wall(const PairConstants& pair, double radius
 void HeatOfWall::add(int p, int type, int wall_type, double radius, double overlap, double force,
                      const Dissipation& made) const {
   const ContactHeat& law = *contacts.law;
-  HeatRates& particle = contacts.arrays.rates[p];
-  WallHeatRates& wall = contacts.arrays.walls[p];
-  if (temperature) {
-    const double conductance =
-        law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force);
-    wall.conduction += conductance * (*temperature - contacts.arrays.temperature[p]);
-    if (contacts.arrays.details)
-      contacts.arrays.details[p].conductance += conductance;
-  }
+  const HeatArrays& arrays = contacts.arrays;
+  const double conductance =
+      temperature ? law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force) : 0;
+  const double conduction = temperature ? conductance * (*temperature - arrays.temperature[p]) : 0;
+  const double share = law.options().wall_share;
   const double friction = law.friction(made);
   const double damping = law.options().damping ? made.damping : 0;
-  const double share = law.options().wall_share;
-  particle.made += (1 - share) * (friction + damping);
-  if (contacts.arrays.details) {
-    contacts.arrays.details[p].friction += (1 - share) * friction;
-    contacts.arrays.details[p].damping += (1 - share) * damping;
-  }
-  wall.to_wall += share * (friction + damping);
+  const double to_particle = (1 - share) * (friction + damping);
+  const double to_wall = share * (friction + damping);
+  arrays.rate[p] += conduction + to_particle;
+
+  HeatSums& sums = arrays.sums[omp_get_thread_num()];
+  sums.walls += conduction;
+  sums.friction += (1 - share) * friction;
+  sums.damping += (1 - share) * damping;
+  sums.to_walls += to_wall;
+
+  if (!arrays.shown.wanted())
+    return;
+  arrays.shown.contacts[p].made += to_particle;
+  HeatDetails& details = arrays.shown.details[p];
+  details.friction += (1 - share) * friction;
+  details.damping += (1 - share) * damping;
+  details.conductance += conductance;
+  WallHeatRates& walls = arrays.shown.walls[p];
+  walls.conduction += conduction;
+  walls.to_wall += to_wall;
 }
 
 } // namespace granflux::particle_subset

@@ -12,30 +12,51 @@
 
 namespace granflux::particle_subset {
 
-/// Heat that one particle receives in its contacts.
-struct HeatRates {
-  double conduction = 0; ///< from other particles [W]
-  double made = 0;       ///< its share of what friction and damping make, at walls too [W]
+/// Heat that the particles of one thread receive in a step [W], where the sums over all particles
+/// of what they exchange with each other are zero but for rounding.
+struct alignas(64) HeatSums {
+  double conduction = 0; ///< from other particles, through contacts and gas
+  double friction = 0;   ///< made in contacts, the particles' share: by sliding and rolling
+  double damping = 0;    ///< likewise by dashpots
+  double walls = 0;      ///< conducted from walls
+  double to_walls = 0;   ///< made in contacts and gone into walls, not into particles
+  double radiation = 0;  ///< from other particles and the surroundings
+
+  HeatSums& operator+=(const HeatSums& o) &;
 };
 
-/// More of the same, in steps that ask for it.
+/// What one particle receives of each kind [W]: in steps that ask for it.
+struct ContactHeatRates {
+  double conduction = 0; ///< from other particles through contacts
+  double made = 0;       ///< its share of what friction and damping make, at walls too
+};
 struct HeatDetails {
   double friction = 0, damping = 0; ///< of what is made [W]
   double conductance = 0;           ///< of all its contacts, those with walls too [W/K]
 };
-
-/// What one particle and the walls exchange.
 struct WallHeatRates {
   double conduction = 0; ///< from walls to the particle [W]
   double to_wall = 0;    ///< heat made in contacts that goes into the wall [W]
+};
+struct NearHeatRates {
+  double gas_gap = 0;     ///< from other particles through the gas in the gaps [W]
+  double radiation = 0;   ///< from other particles and the surroundings [W]
+  double conductance = 0; ///< of both together [W/K]
+};
+struct HeatShown {
+  ContactHeatRates* contacts = nullptr;
+  HeatDetails* details = nullptr;
+  WallHeatRates* walls = nullptr;
+  NearHeatRates* near = nullptr;
+  [[nodiscard]] bool wanted() const { return details != nullptr; }
 };
 
 /// Arrays of the host, borrowed.
 struct HeatArrays {
   const double* temperature = nullptr; ///< of owned particles and ghosts [K]
-  HeatRates* rates = nullptr;          ///< of owned particles: added to
-  WallHeatRates* walls = nullptr;      ///< likewise
-  HeatDetails* details = nullptr;      ///< likewise; null in steps that do not ask for them
+  double* rate = nullptr;              ///< that owned particles receive [W]: added to
+  HeatSums* sums = nullptr;            ///< of each thread: added to
+  HeatShown shown;                     ///< of owned particles: added to; null where not asked for
 };
 
 /// How the heat of friction is found: not at all, from the slider's own work, or as
@@ -47,6 +68,9 @@ struct ContactHeatOptions {
   FrictionHeat friction = FrictionHeat::slider;
   bool damping = false;    ///< heat of dashpots
   double wall_share = 0.5; ///< of the heat made at a wall that goes into the wall
+
+  /// The slider's own work is all that contacts make.
+  [[nodiscard]] bool slider_alone() const { return !damping && friction == FrictionHeat::slider; }
 };
 
 /// The material of one type, with its true modulus where the spring is softened.
@@ -85,10 +109,10 @@ public:
                                    double overlap, double force) const;
   [[nodiscard]] double conductance_at_wall(const PairConstants& pair, double radius, double overlap,
                                            double force) const;
-  /// What the options count of the heat of sliding [W].
+  /// What the options count of the heat of sliding and rolling [W].
   [[nodiscard]] double friction(const Dissipation& heat) const {
-    return options_.friction == FrictionHeat::slider  ? heat.sliding
-           : options_.friction == FrictionHeat::speed ? heat.sliding_by_speed()
+    return options_.friction == FrictionHeat::slider  ? heat.sliding + heat.rolling
+           : options_.friction == FrictionHeat::speed ? heat.sliding_by_speed() + heat.rolling
                                                       : 0;
   }
 

@@ -35,6 +35,7 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
   static constexpr bool has_tangential_history = Tangential::history > 0;
   static constexpr bool has_rolling_history = Rolling::history > 0;
   static constexpr int rolling_offset = Tangential::history;
+  static constexpr bool rolls = Rolling::acts;
   static constexpr bool turns = Tangential::acts || Rolling::acts; ///< there are torques
   /// The host's marks of the laws that have acted on a pair.
   static constexpr int touched =
@@ -104,9 +105,13 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
       f.torque_j = -arm_j * moment;
     }
     if constexpr (Rolling::acts) {
-      const Vec3 torque = Rolling::torque(k.rolling, c, normal, dt, rolling_history);
-      f.torque_i -= torque;
-      f.torque_j += torque;
+      const RollingTorque rolling = Rolling::torque(k.rolling, c, normal, dt, rolling_history);
+      f.torque_i -= rolling.on_j;
+      f.torque_j += rolling.on_j;
+      // At the middle of the two half steps of spin around the torques.
+      const Vec3 turned = (1.25 * dt) * (1 / (p.mass_i * p.radius_i * p.radius_i) * f.torque_i -
+                                         1 / (p.mass_j * p.radius_j * p.radius_j) * f.torque_j);
+      f.heat.rolling = rolling.sliding + dot(rolling.against_spin, c.relative_spin + turned);
     }
     return f;
   }

@@ -8,65 +8,105 @@
 
 namespace granflux::particle_subset {
 
-HeatBatch::HeatBatch(const HeatOfContacts& heat) : law_(*heat.law), arrays_(heat.arrays) {
+namespace {
+
+/// Where nothing is conducted.
+struct NoRadius {
+  double operator()(double, const coupling::ContactShape&) const { return 0; }
+};
+
+} // namespace
+
+template <HeatMade made>
+HeatBatch<made>::HeatBatch(const HeatOfContacts& heat)
+    : law_(*heat.law), arrays_(heat.arrays), types_(law_.types()) {
   for (int k = 0; k < ContactBatch::capacity; ++k)
     set_constants(k, law_.pair(1, 1));
 }
 
+/// The columns of friction and damping become what the options count of them.
+template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_groups) {
+  const FrictionHeat friction = law_.options().friction;
+  if (friction == FrictionHeat::speed)
+    for (int k = 0; k < whole_groups; ++k)
+      friction_[k] = slider_force_[k] * std::sqrt(slip_squared_[k]) + rolling_[k];
+  else if (friction == FrictionHeat::off)
+    std::fill_n(friction_, whole_groups, 0.0);
+  if (!law_.options().damping)
+    std::fill_n(damping_, whole_groups, 0.0);
+}
+
+template <HeatMade made>
 template <class Radius>
-[[gnu::flatten]] void HeatBatch::conduct(const Radius& radius, const ContactBatch& b,
-                                         int whole_groups) {
+[[gnu::flatten]] void HeatBatch<made>::exchange(const Radius& radius, const ContactBatch& b,
+                                                int whole_groups) {
 #pragma GCC ivdep
   for (int k = 0; k < whole_groups; ++k) {
     coupling::ContactShape shape = coupling::shape_of_pair(
         b.radius_i[k], b.radius_j[k], overlap_ratio_[k] * overlap_[k], pressing_[k]);
     shape.reduced_radius = reduced_radius_[k];
     conductance_[k] = per_radius_[k] * radius(inverse_modulus_[k], shape);
-    conduction_[k] = conductance_[k] * (temperature_j_[k] - temperature_i_[k]);
+    conduction_[k] = conductance_[k] * warmer_[k];
+    double heat = friction_[k];
+    if constexpr (made == HeatMade::by_any)
+      heat += damping_[k];
+    rate_i_[k] = conduction_[k] + share_[k] * heat;
+    rate_j_[k] = heat - rate_i_[k];
   }
 }
 
-/// The columns of sliding and damping become what the options count of them.
-void HeatBatch::share_out(int whole_groups) {
-  const FrictionHeat friction = law_.options().friction;
-  if (friction == FrictionHeat::speed)
-    for (int k = 0; k < whole_groups; ++k)
-      sliding_[k] = slider_force_[k] * std::sqrt(slip_squared_[k]);
-  else if (friction == FrictionHeat::off)
-    std::fill_n(sliding_, whole_groups, 0.0);
-  if (!law_.options().damping)
-    std::fill_n(damping_, whole_groups, 0.0);
-  for (int k = 0; k < whole_groups; ++k) {
-    const double made = sliding_[k] + damping_[k];
-    made_i_[k] = share_[k] * made;
-    made_j_[k] = made - made_i_[k];
-  }
-}
-
-void HeatBatch::evaluate(const ContactBatch& batch, int count, Range own) {
+template <HeatMade made>
+void HeatBatch<made>::evaluate(const ContactBatch& batch, int count, Range own) {
   constexpr int lanes = ContactBatch::lanes;
   const int whole_groups = (count + lanes - 1) / lanes * lanes;
+  if constexpr (made == HeatMade::by_any)
+    count_what_is_made(whole_groups);
   if (law_.options().radius)
-    std::visit([&](const auto& radius) { conduct(radius, batch, whole_groups); },
+    std::visit([&](const auto& radius) { exchange(radius, batch, whole_groups); },
                *law_.options().radius);
-  share_out(whole_groups);
-  if (arrays_.details)
-    add_details(batch, count, own);
+  else
+    exchange(NoRadius{}, batch, whole_groups);
+  sum_up(batch, count, own);
+  if (arrays_.shown.wanted())
+    show(batch, count, own);
 }
 
-void HeatBatch::add_details(const ContactBatch& batch, int count, Range own) const {
-  const auto add = [&](int particle, int k, double share) {
+template <HeatMade made> void HeatBatch<made>::sum_up(const ContactBatch& b, int count, Range own) {
+  double conduction = 0, friction = 0, damping = 0;
+#pragma omp simd reduction(+ : conduction, friction, damping)
+  for (int k = 0; k < count; ++k) {
+    const double own_i = own.holds(b.i[k]) ? 1 : 0, own_j = own.holds(b.j[k]) ? 1 : 0;
+    const double share = own_i * share_[k] + own_j * (1 - share_[k]);
+    conduction += (own_i - own_j) * conduction_[k];
+    friction += share * friction_[k];
+    if constexpr (made == HeatMade::by_any)
+      damping += share * damping_[k];
+  }
+  sums_.conduction += conduction;
+  sums_.friction += friction;
+  sums_.damping += damping;
+}
+
+template <HeatMade made>
+void HeatBatch<made>::show(const ContactBatch& batch, int count, Range own) const {
+  const auto add = [&](int particle, int k, double share, double conduction) {
     if (!own.holds(particle))
       return;
-    HeatDetails& to = arrays_.details[particle];
-    to.friction += share * sliding_[k];
-    to.damping += share * damping_[k];
-    to.conductance += conductance_[k];
+    ContactHeatRates& contacts = arrays_.shown.contacts[particle];
+    contacts.conduction += conduction;
+    contacts.made += share * (friction_[k] + damping_[k]);
+    HeatDetails& details = arrays_.shown.details[particle];
+    details.friction += share * friction_[k];
+    details.damping += share * damping_[k];
+    details.conductance += conductance_[k];
   };
   for (int k = 0; k < count; ++k) {
-    add(batch.i[k], k, share_[k]);
-    add(batch.j[k], k, 1 - share_[k]);
+    add(batch.i[k], k, share_[k], conduction_[k]);
+    add(batch.j[k], k, 1 - share_[k], -conduction_[k]);
   }
 }
+
+template class HeatBatch<HeatMade::by_slider>;
+template class HeatBatch<HeatMade::by_any>;
 
 } // namespace granflux::particle_subset

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <omp.h>
+
 #include "contact_batch.hpp"
 #include "contact_heat.hpp"
 #include "subset.hpp"
@@ -14,50 +16,50 @@ struct WithoutHeat {
   using Source = WithoutHeat;
 };
 
+/// What contacts make of heat, as the options want it.
+enum class HeatMade {
+  by_slider, ///< ContactHeatOptions::slider_alone()
+  by_any     ///< whatever else: found out batch by batch
+};
+
 /// The heat of a batch of contacts, beside its forces.
-class HeatBatch {
+template <HeatMade made> class HeatBatch {
 public:
   static constexpr bool acts = true;
   using Source = HeatOfContacts;
 
   explicit HeatBatch(const HeatOfContacts& heat);
+  ~HeatBatch() { arrays_.sums[omp_get_thread_num()] += sums_; }
   HeatBatch(const HeatBatch&) = delete;
   HeatBatch& operator=(const HeatBatch&) = delete;
 
   /// Before the forces: the partners of pair k.
   void gather(int k, int i, int j, const int* type) {
-    temperature_i_[k] = arrays_.temperature[i];
-    temperature_j_[k] = arrays_.temperature[j];
-    if (law_.types() > 1)
+    warmer_[k] = arrays_.temperature[j] - arrays_.temperature[i];
+    if (types_ > 1)
       set_constants(k, law_.pair(type[i], type[j]));
   }
   /// With the forces.
-  void set(int k, const ContactForce& f) {
+  template <bool rolls> void set(int k, const ContactForce& f) {
     pressing_[k] = f.pressing;
     overlap_[k] = f.overlap;
     reduced_radius_[k] = f.reduced_radius;
-    sliding_[k] = f.heat.sliding;
-    slider_force_[k] = f.heat.slider_force;
-    slip_squared_[k] = f.heat.slip_squared;
-    damping_[k] = f.heat.damping;
+    friction_[k] = f.heat.sliding;
+    if constexpr (rolls)
+      friction_[k] += f.heat.rolling;
+    if constexpr (made == HeatMade::by_any) {
+      slider_force_[k] = f.heat.slider_force;
+      slip_squared_[k] = f.heat.slip_squared;
+      damping_[k] = f.heat.damping;
+      rolling_[k] = f.heat.rolling;
+    }
   }
-  /// After the forces; details are added at once, of the particles that are `own`.
+  /// After the forces, of which some particles are `own`.
   void evaluate(const ContactBatch& batch, int count, Range own);
 
-  [[nodiscard]] HeatRates& rates(int particle) const { return arrays_.rates[particle]; }
-  void prefetch(int particle) const {
-    __builtin_prefetch(arrays_.temperature + particle);
-    __builtin_prefetch(arrays_.rates + particle, 1);
-  }
-  void add_to_i(HeatRates& to, int k) const {
-    to.conduction += conduction_[k];
-    to.made += made_i_[k];
-  }
-  void add_to_j(int j, int k) const {
-    HeatRates& to = rates(j);
-    to.conduction -= conduction_[k];
-    to.made += made_j_[k];
-  }
+  [[nodiscard]] double& rate(int particle) const { return arrays_.rate[particle]; }
+  [[nodiscard]] double rate_of_i(int k) const { return rate_i_[k]; }
+  void add_to_j(int j, int k) const { arrays_.rate[j] += rate_j_[k]; }
 
 private:
   void set_constants(int k, const ContactHeat::PairConstants& pair) {
@@ -66,19 +68,25 @@ private:
     overlap_ratio_[k] = pair.overlap_ratio;
     share_[k] = pair.share;
   }
+  void count_what_is_made(int whole_groups);
   template <class Radius>
-  void conduct(const Radius& radius, const ContactBatch& batch, int whole_groups);
-  void share_out(int whole_groups);
-  void add_details(const ContactBatch& batch, int count, Range own) const;
+  void exchange(const Radius& radius, const ContactBatch& batch, int whole_groups);
+  void sum_up(const ContactBatch& batch, int count, Range own);
+  void show(const ContactBatch& batch, int count, Range own) const;
 
   using Column = ContactBatch::Column;
   const ContactHeat& law_;
   const HeatArrays arrays_;
-  alignas(64) Column temperature_i_{}, temperature_j_{};
+  const int types_;
+  HeatSums sums_;               // of this object
+  alignas(64) Column warmer_{}; // j than i
   alignas(64) Column per_radius_{}, inverse_modulus_{}, overlap_ratio_{}, share_{};
   alignas(64) Column pressing_{}, overlap_{}, reduced_radius_{};
-  alignas(64) Column sliding_{}, slider_force_{}, slip_squared_{}, damping_{};
-  alignas(64) Column conductance_{}, conduction_{}, made_i_{}, made_j_{};
+  alignas(64) Column friction_{}, slider_force_{}, slip_squared_{}, rolling_{}, damping_{};
+  alignas(64) Column conductance_{}, conduction_{}, rate_i_{}, rate_j_{};
 };
+
+extern template class HeatBatch<HeatMade::by_slider>;
+extern template class HeatBatch<HeatMade::by_any>;
 
 } // namespace granflux::particle_subset

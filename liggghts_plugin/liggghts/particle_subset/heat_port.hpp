@@ -11,6 +11,8 @@ class HeatPort {
 public:
   /// Valid until LIGGGHTS moves, sorts or communicates particles.
   [[nodiscard]] virtual HeatOfContacts heat_of_contacts() = 0;
+  /// Gap up to which particles that do not touch exchange heat: the lists must hold them [m].
+  [[nodiscard]] virtual double reach() const = 0;
 
 protected:
   ~HeatPort() = default;

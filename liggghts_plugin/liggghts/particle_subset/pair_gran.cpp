@@ -160,13 +160,23 @@ bool PairGran::begin_own_work(int eflag, int vflag) {
 }
 
 void PairGran::start_own_work(int thread, Range own) {
+  const ThreadContacts& contacts = lists_.of(thread);
   if (heat_)
-    std::fill(heat_now_.arrays.rates + own.begin, heat_now_.arrays.rates + own.end, HeatRates{});
+    clear_heat({own.begin, contacts.reach_of_lower()});
   kernel_->add_lower(particles(), lists_.of(thread), update->dt, heat());
 }
 
 void PairGran::own_work(int thread, Range block) {
+  if (heat_) { // while it is in the cache: what the rows before have added to is cleared
+    const ThreadContacts& contacts = lists_.of(thread);
+    const Range before{contacts.own.begin, block.begin};
+    clear_heat({contacts.reach_of_block(before), contacts.reach_of_block(block)});
+  }
   kernel_->add_upper(particles(), lists_.of(thread), block, update->dt, heat());
+}
+
+void PairGran::clear_heat(Range range) const {
+  std::fill(heat_now_.arrays.rate + range.begin, heat_now_.arrays.rate + range.end, 0.0);
 }
 
 /// In a step whose forces are left to LIGGGHTS' loop: forces and histories go nowhere.
@@ -176,7 +186,7 @@ void PairGran::add_heat_alone() {
   std::vector<Vec3> forces(std::size_t(all.owned)), torques(forces.size());
   all.force = forces.data();
   all.torque = torques.data();
-  std::fill_n(heat_now_.arrays.rates, all.owned, HeatRates{});
+  clear_heat({0, all.owned});
 #pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
   for (int thread = 0; thread < lists_.subset().threads(); ++thread) {
     ThreadContacts contacts = lists_.of(thread);
@@ -197,7 +207,8 @@ void PairGran::build_lists() {
   PartnerHistory kept;
   if (auto* fix = dynamic_cast<FixContactHistory*>(fix_history))
     kept = fix->arrays();
-  lists_.build(particles(), neighbor->skin, omp_get_max_threads(), kernel_->history_size(),
+  const double reach = heat_ ? heat_->reach() : 0;
+  lists_.build(particles(), neighbor->skin + reach, omp_get_max_threads(), kernel_->history_size(),
                excluded, kept);
   show_lists_to_host();
 }
@@ -247,11 +258,19 @@ void PairGran::compute_force(int eflag, int vflag, int addflag) {
   const bool makes_heat = heat_ && shearupdate(); // not in a setup
   if (makes_heat) {
     heat_now_ = heat_->heat_of_contacts();
-    std::fill_n(heat_now_.arrays.rates, all.owned, HeatRates{});
+    clear_heat({0, all.owned});
   }
 #pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
   for (int thread = 0; thread < lists_.subset().threads(); ++thread)
     kernel_->add(all, lists_.of(thread), update->dt, makes_heat ? heat() : nullptr);
+}
+
+void PairGran::add_near_heat(const NearHeat& law, const HeatArrays& arrays) {
+  const Particles all = particles();
+  facing_.resize(std::size_t(all.owned));
+#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
+  for (int thread = 0; thread < lists_.subset().threads(); ++thread)
+    law.add(all, lists_.of(thread), arrays, arrays.sums[thread], facing_);
 }
 
 void PairGran::store_history(PartnerHistory kept) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <liggghts/lammps.h>
 
@@ -14,6 +15,7 @@
 #include "contact_lists.hpp"
 #include "gran_words.hpp"
 #include "heat_port.hpp"
+#include "near_heat.hpp"
 #include "own_work.hpp"
 
 namespace granflux::particle_subset {
@@ -47,9 +49,13 @@ public:
 
   /// From here on, until the next init_style(), contacts make heat too. Only by particle subset.
   void set_heat(HeatPort& heat) { heat_ = &heat; }
+  /// Adds the heat between particles near each other, touching or not, of the step whose contacts
+  /// were computed last.
+  void add_near_heat(const NearHeat& law, const HeatArrays& arrays);
 
 private:
   void add_heat_alone();
+  void clear_heat(Range range) const;
   [[nodiscard]] const HeatOfContacts* heat() const { return heat_ ? &heat_now_ : nullptr; }
   [[nodiscard]] std::string reason_for_stock();
   void show_lists_to_host();
@@ -60,8 +66,9 @@ private:
   std::unique_ptr<ContactKernel> kernel_;
   std::string unknown_law_; // why there is no kernel
   bool by_subset_ = false;
-  HeatPort* heat_ = nullptr; // null: none
-  HeatOfContacts heat_now_;  // of this step
+  HeatPort* heat_ = nullptr;   // null: none
+  HeatOfContacts heat_now_;    // of this step
+  std::vector<double> facing_; // of NearHeat, of each owned particle
   ContactLists lists_;
   // The same lists in the form in which LIGGGHTS' loop, fixes and computes read them.
   std::unique_ptr<LAMMPS_NS::NeighList> shown_, shown_history_;

@@ -9,85 +9,78 @@
 
 namespace granflux::particle_subset {
 
-HeatPowers& HeatPowers::operator+=(const HeatPowers& o) & {
-  conduction += o.conduction;
-  walls += o.walls;
-  made += o.made;
+StepPowers& StepPowers::operator+=(const StepPowers& o) & {
   convection += o.convection;
   source += o.source;
-  to_walls += o.to_walls;
   held += o.held;
   return *this;
 }
 
 namespace {
 
-template <bool with_walls, bool with_gas>
-HeatPowers step(const HeatedParticles& p, std::span<const double> capacity, int held, double dt,
+/// What the script does not use leaves no instruction in the loop, which then runs on vector
+/// registers.
+template <bool one_type, bool with_gas, bool some_held>
+StepPowers step(const HeatedParticles& p, std::span<const double> capacity, int held, double dt,
                 Range range) {
-  HeatPowers sum;
+  const double common = capacity[0];
+  double convection = 0, source = 0, taken = 0;
+#pragma omp simd reduction(+ : convection, source, taken)
   for (int i = range.begin; i < range.end; ++i) {
-    const HeatRates& rates = p.contacts[i];
-    const double mc = p.mass[i] * capacity[std::size_t(p.type[i]) - 1];
-    const bool is_held = (p.groups[i] & held) != 0;
-    double received = rates.conduction + rates.made;
-    if constexpr (with_walls) {
-      received += p.walls[i].conduction;
-      sum.walls += p.walls[i].conduction;
-      sum.to_walls += p.walls[i].to_wall;
-    }
+    const double mc = p.mass[i] * (one_type ? common : capacity[std::size_t(p.type[i]) - 1]);
+    const bool is_held = some_held && (p.groups[i] & held) != 0;
+    double total = p.heat_flux[i] + p.source[i];
     if constexpr (with_gas) {
-      const double convection = coupling::convected_heat(p.gas[i], p.temperature[i],
-                                                         received + p.source[i], mc, is_held, dt);
-      received += convection;
-      sum.convection += convection;
+      const double heat =
+          coupling::convected_heat(p.gas[i], p.temperature[i], total, mc, is_held, dt);
+      convection += heat;
+      p.heat_flux[i] += heat;
+      total += heat;
     }
-    p.heat_flux[i] = received;
-    const double total = received + p.source[i];
-    sum.conduction += rates.conduction;
-    sum.made += rates.made;
-    sum.source += p.source[i];
-    if (is_held) {
-      sum.held += total;
-      continue;
-    }
+    source += p.source[i];
     // What the sum rounds off is kept: steps of 1e-6 s warm by less than the last digit.
     const double change = dt * total / mc + p.carry[i];
     const double warmer = p.temperature[i] + change;
-    p.carry[i] = change - (warmer - p.temperature[i]);
-    p.temperature[i] = warmer;
+    const double rounded_off = change - (warmer - p.temperature[i]);
+    if constexpr (some_held) {
+      taken += is_held ? total : 0;
+      p.carry[i] = is_held ? p.carry[i] : rounded_off;
+      p.temperature[i] = is_held ? p.temperature[i] : warmer;
+    } else {
+      p.carry[i] = rounded_off;
+      p.temperature[i] = warmer;
+    }
   }
-  return sum;
+  return {.convection = convection, .source = source, .held = taken};
+}
+
+template <bool one_type, bool with_gas>
+StepPowers step(const HeatedParticles& p, std::span<const double> capacity, int held, double dt,
+                Range range) {
+  return held ? step<one_type, with_gas, true>(p, capacity, held, dt, range)
+              : step<one_type, with_gas, false>(p, capacity, held, dt, range);
 }
 
 } // namespace
 
-DetailSums& DetailSums::operator+=(const DetailSums& o) & {
-  friction += o.friction;
-  damping += o.damping;
-  conduction_number = std::max(conduction_number, o.conduction_number);
-  return *this;
-}
-
-DetailSums sum_details(const HeatDetails* details, const HeatedParticles& p,
-                       std::span<const double> capacity, double dt, Range range) {
-  DetailSums sum;
-  for (int i = range.begin; i < range.end; ++i) {
-    sum.friction += details[i].friction;
-    sum.damping += details[i].damping;
-    const double mc = p.mass[i] * capacity[std::size_t(p.type[i]) - 1];
-    sum.conduction_number = std::max(sum.conduction_number, dt * details[i].conductance / mc);
-  }
-  return sum;
-}
-
-HeatPowers step_temperature(const HeatedParticles& p, std::span<const double> capacity, int held,
+StepPowers step_temperature(const HeatedParticles& p, std::span<const double> capacity, int held,
                             double dt, Range range) {
-  if (p.walls)
+  if (capacity.size() == 1)
     return p.gas ? step<true, true>(p, capacity, held, dt, range)
                  : step<true, false>(p, capacity, held, dt, range);
   return p.gas ? step<false, true>(p, capacity, held, dt, range)
                : step<false, false>(p, capacity, held, dt, range);
+}
+
+double conduction_number(const HeatShown& shown, const HeatedParticles& p,
+                         std::span<const double> capacity, double dt, Range range) {
+  double largest = 0;
+  for (int i = range.begin; i < range.end; ++i) {
+    const double mc = p.mass[i] * capacity[std::size_t(p.type[i]) - 1];
+    const double conductance = shown.details[i].conductance + shown.near[i].conductance;
+    largest = std::max(largest, dt * conductance / mc);
+  }
+  return largest;
 }
 
 } // namespace granflux::particle_subset

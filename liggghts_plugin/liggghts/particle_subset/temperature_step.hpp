@@ -15,45 +15,33 @@ namespace granflux::particle_subset {
 struct HeatedParticles {
   double* temperature = nullptr;  ///< K
   double* carry = nullptr;        ///< what rounding has kept from the temperature [K]
-  double* heat_flux = nullptr;    ///< out: all that is received but the source [W]
+  double* heat_flux = nullptr;    ///< received but from gas and source; out: from the gas too [W]
   const double* source = nullptr; ///< W
   const double* mass = nullptr;   ///< kg
   const int* type = nullptr;      ///< from 1 on
   const int* groups = nullptr;    ///< one bit each
-  const HeatRates* contacts = nullptr;
-  const WallHeatRates* walls = nullptr; ///< optional
-  coupling::HeatState* gas = nullptr;   ///< optional: convection
+  coupling::HeatState* gas = nullptr; ///< optional: convection
 };
 
-/// Heat that particles of a range received in one step [W].
-struct HeatPowers {
-  double conduction = 0; ///< from other particles: sums to zero over all of them
-  double walls = 0;      ///< conducted from walls
-  double made = 0;       ///< by friction and damping
-  double convection = 0;
+/// What a step of temperature adds to the heat that particles receive [W].
+struct StepPowers {
+  double convection = 0; ///< from the gas
   double source = 0;
-  double to_walls = 0; ///< made in contacts and gone into walls, not into particles
-  double held = 0;     ///< taken off those of fixed temperature
+  double held = 0; ///< taken off those of fixed temperature
 
-  HeatPowers& operator+=(const HeatPowers& o) &;
+  StepPowers& operator+=(const StepPowers& o) &;
 };
 
 /// One step of `dt` seconds for the particles of `range`: Euler's forward step with the rates of
 /// contacts, and exactly for the exchange with gas of constant temperature, however stiff. The
 /// temperatures of particles of the groups `held` stay. `capacity`: J/(kg K) of types from 1 on.
-[[nodiscard]] HeatPowers step_temperature(const HeatedParticles& p,
+[[nodiscard]] StepPowers step_temperature(const HeatedParticles& p,
                                           std::span<const double> capacity, int held, double dt,
                                           Range range);
 
-/// What the details of the contacts of a range add up to.
-struct DetailSums {
-  double friction = 0, damping = 0; ///< W
-  /// Largest dt * conductance / heat capacity of a particle: above 1 conduction overshoots.
-  double conduction_number = 0;
-
-  DetailSums& operator+=(const DetailSums& o) &;
-};
-[[nodiscard]] DetailSums sum_details(const HeatDetails* details, const HeatedParticles& p,
-                                     std::span<const double> capacity, double dt, Range range);
+/// Largest dt * conductance / heat capacity of a particle of `range`: above 1 conduction and
+/// radiation overshoot.
+[[nodiscard]] double conduction_number(const HeatShown& shown, const HeatedParticles& p,
+                                       std::span<const double> capacity, double dt, Range range);
 
 } // namespace granflux::particle_subset

@@ -74,8 +74,13 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
       f.heat.damping += heat.damping;
       f.torque = -arm * cross(c.normal, tangential);
     }
-    if constexpr (Rolling::acts)
-      f.torque -= Rolling::torque(k.rolling, c, normal, dt, rolling_history);
+    if constexpr (Rolling::acts) {
+      const RollingTorque rolling = Rolling::torque(k.rolling, c, normal, dt, rolling_history);
+      f.torque -= rolling.on_j;
+      // What the torque works on is the sphere's own spin, at the middle of the two half steps.
+      const Vec3 spin = w.spin + (1.25 * dt / (w.mass * w.radius * w.radius)) * f.torque;
+      f.heat.rolling = (w.distance / arm) * rolling.sliding + dot(rolling.against_spin, spin);
+    }
     return f;
   }
 };

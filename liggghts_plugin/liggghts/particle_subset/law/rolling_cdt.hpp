@@ -24,13 +24,13 @@ struct RollingCdt {
     return {m.pair("coeffRollFrict", a, b), double(!m.option("torsionTorque"))};
   }
 
-  /// On j; its opposite on i.
-  static Vec3 torque(const Constants& k, const Contact& c, const NormalForce& normal, double,
-                     Vec3&) {
+  static RollingTorque torque(const Constants& k, const Contact& c, const NormalForce& normal,
+                              double, Vec3&) {
     const double spin = norm(c.relative_spin);
     const double size = k.rolling_friction * normal.stiffness * c.overlap * c.reduced_radius;
-    const Vec3 torque = (spin > 0 ? size / spin : 0.0) * c.relative_spin;
-    return torque - k.without_torsion * dot(torque, c.normal) * c.normal;
+    const Vec3 whole = (spin > 0 ? size / spin : 0.0) * c.relative_spin;
+    const Vec3 torque = whole - k.without_torsion * dot(whole, c.normal) * c.normal;
+    return {.on_j = torque, .sliding = 0, .against_spin = torque};
   }
 };
 

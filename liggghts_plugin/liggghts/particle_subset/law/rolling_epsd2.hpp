@@ -25,17 +25,22 @@ struct RollingEpsd2 {
     return {m.pair("coeffRollFrict", a, b), double(!m.option("torsionTorque"))};
   }
 
-  /// On j; its opposite on i.
-  static Vec3 torque(const Constants& k, const Contact& c, const NormalForce& normal, double dt,
-                     Vec3& old) {
+  static RollingTorque torque(const Constants& k, const Contact& c, const NormalForce& normal,
+                              double dt, Vec3& old) {
     const double radius = c.reduced_radius;
     const Vec3 spin =
         c.relative_spin - k.without_torsion * dot(c.relative_spin, c.normal) * c.normal;
-    const Vec3 torque = old + dt * normal.tangential_stiffness * radius * radius * spin;
-    const double size = norm(torque);
+    const Vec3 before = old;
+    const Vec3 elastic = old + dt * normal.tangential_stiffness * radius * radius * spin;
+    const double size = norm(elastic);
     const double limit = std::abs(normal.force) * radius * k.rolling_friction;
-    old = (size > limit ? limit / size : 1.0) * torque;
-    return old;
+    const double held = size > limit ? limit / size : 1.0;
+    old = held * elastic;
+    // The slider gives way by what the spring is shortened, against the mean torque of the step.
+    const double lost = 0.5 * (1 - held) * dot(before + old, elastic);
+    const double stiffness = normal.tangential_stiffness * radius * radius;
+    return {
+        .on_j = old, .sliding = stiffness > 0 ? lost / (stiffness * dt) : 0.0, .against_spin = {}};
   }
 };
 
