@@ -127,7 +127,9 @@ class MeanBed:
                 continue
             j = above[-1]
             share = (column[j] - level) / (column[j] - column[j + 1])
-            points.append((x, self.centres[j] + share * (self.centres[1] - self.centres[0])))
+            y = self.centres[j] + share * (self.centres[1] - self.centres[0])
+            if np.hypot(x, y) < RADIUS - DIAMETER:  # else it is the wall that ends the bed
+                points.append((x, y))
         return np.array(points)
 
     def angle(self, within=0.5):

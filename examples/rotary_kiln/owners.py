@@ -27,9 +27,9 @@ def start(results, ranks):
     """Particles of each rank (n, 3), in the rank's order."""
     for old in (results / "post").glob("owners.*.txt"):
         old.unlink()
-    subprocess.run(["mpirun", "-np", str(ranks), "granflux", "-in", "in.owners", "-log", "none", "-screen", "none",
-                    *sys.argv[2:]],
-                   cwd=results, check=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    command = ["mpirun", "-np", str(ranks), "granflux", "-in", "in.owners", "-log", "log.owners", *sys.argv[2:]]
+    with open(results / "owners.out", "w") as out:
+        subprocess.run(command, cwd=results, check=True, stdout=out, env={**os.environ, "OMP_NUM_THREADS": "1"})
     return [np.loadtxt(results / f"post/owners.{rank}.txt", skiprows=9, usecols=(1, 2, 3), ndmin=2)
             for rank in range(ranks)]
 
@@ -55,11 +55,17 @@ def main(results):
     block = by_gas_block(results, alone)
     panels = (("gas blocks", alone, block % WORKERS), ("LIGGGHTS' own, 5 ranks", np.concatenate(ranks), space),
               ("particle subsets, 5 threads", alone, by_thread(len(alone))))
-    figure, axes = plt.subplots(1, 3, figsize=(14, 5.2), sharey=True, layout="constrained")
-    for axis, (title, x, owner) in zip(axes, panels):
+    length = MM * (np.ptp(alone[:, 2]) + kiln.DIAMETER)
+    figure, axes = plt.subplots(1, 6, figsize=(15, 5), sharey=True, layout="constrained",
+                                gridspec_kw={"width_ratios": 3 * [160, max(length, 30)]})
+    for axis, side, (title, x, owner) in zip(axes[::2], axes[1::2], panels):
         share = np.bincount(owner, minlength=WORKERS)
         drum(axis, f"{title}\nmost over mean {share.max() / share.mean():.2f}")
         spheres = draw_particles(axis, x, owner, (-0.5, WORKERS - 0.5), COLOURS)
+        draw_particles(side, x[:, [2, 1, 0]], owner, (-0.5, WORKERS - 0.5), COLOURS)  # from the side
+        side.set_aspect("equal")
+        side.set_xlim(0, length)
+        side.set_xlabel("z, mm")
         print(f"{title}: particles {', '.join(map(str, share))}; most over mean {share.max() / share.mean():.2f}")
     axes[0].set_ylabel("y, mm")
     bar = figure.colorbar(spheres, ax=axes, location="bottom", shrink=0.3, ticks=range(WORKERS), label="worker")

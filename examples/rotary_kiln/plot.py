@@ -63,17 +63,21 @@ def draw_picture(results, chosen):
 
 
 def middle_plane(gas):
-    """Fields of the gas, means of the cells along the axis, on a plane of 2 mm squares; NaN outside."""
+    """Velocity and temperature of the gas, means of the cells along the axis and values of the wall, on a plane of
+    squares; NaN outside."""
     place = np.round(np.stack([gas["x"], gas["y"]], axis=1), 9)
     points, which = np.unique(place, axis=0, return_inverse=True)
     count = np.bincount(which)
-    triangles = Triangulation(*points.T)
-    line = np.linspace(-kiln.RADIUS, kiln.RADIUS, 121)
+    outermost = points[np.hypot(*points.T) > 0.92 * kiln.RADIUS]  # cells at the wall
+    angle = np.arctan2(outermost[:, 1], outermost[:, 0])
+    wall = kiln.RADIUS * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    triangles = Triangulation(*np.concatenate([points, wall]).T)
+    line = np.linspace(-kiln.RADIUS, kiln.RADIUS, 201)
     X, Y = np.meshgrid(line, line)
-    names = ("VelocityX", "VelocityY", "Temperature", "VoidFraction")
-    fields = {name: LinearTriInterpolator(triangles, np.bincount(which, gas[name]) / count)(X, Y).filled(np.nan)
-              for name in names}
-    return line, fields
+    at_wall = {"VelocityX": -kiln.OMEGA * wall[:, 1], "VelocityY": kiln.OMEGA * wall[:, 0],
+               "Temperature": np.full(len(wall), kiln.HOT)}
+    return line, {name: LinearTriInterpolator(triangles, np.append(np.bincount(which, gas[name]) / count, values))(X, Y)
+                  .filled(np.nan) for name, values in at_wall.items()}
 
 
 def draw_gas(results, bed):
@@ -104,19 +108,27 @@ def draw_heat(results, table, particles):
     above.set_ylabel("mean temperature of the bed, K")
     right = above.secondary_yaxis("right", functions=(lambda t: (t - kiln.COLD) / 75, lambda s: kiln.COLD + 75 * s))
     right.set_ylabel("(T - 298 K)/75 K")
-    above.set_title(f"{share[-1]:.4f} of the way to the wall's temperature after {table['time'][-1]:.1f} s")
+    above.set_title(f"{share[-1]:.5f} of the way to the wall's temperature after {table['time'][-1]:.1f} s")
     area = particles * np.pi * kiln.DIAMETER**2
     for name, label, colour in (("gas W", "convection from the gas", BLUE), ("walls W", "conduction from the wall", ORANGE),
                                 ("friction W", "friction", GREEN), ("damping W", "damping", PINK)):
         below.plot(table["time"][1:], table[name][1:] / area, color=colour, label=label, lw=1)
     below.set_yscale("log")
     below.set_xlabel("time, s")
-    below.set_ylabel("heat to the particles, W per m2 of their surface")
+    below.set_ylabel("heat to the particles, W/m2")
     below.legend(ncol=2)
     figure.savefig(results / "heat.png", dpi=110)
 
 
-def draw_motion(results, table, bed, terms):
+def left_over(table, terms, springs):
+    """Energy of motion that is not accounted for, at the times of the frames [J]: (times, energies)."""
+    at = np.searchsorted(table["step"], springs.steps[springs.steps <= table["step"][-1]])
+    gained = sum(terms[name][at] for name in ("kinetic", "height", "friction", "damping"))
+    springs_gained = springs.energy[: len(at)] - springs.energy[0]
+    return table["time"][at], terms["walls"][at] + terms["gas"][at] - gained - springs_gained
+
+
+def draw_motion(results, table, bed, terms, open_):
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5.6), layout="constrained")
     vx, vy = bed.velocity()
     dense = bed.solids() > 0.1
@@ -133,13 +145,11 @@ def draw_motion(results, table, bed, terms):
              ("damping", "by damping", PINK), ("height", "gained in height", GREEN), ("kinetic", "gained in speed", GREY))
     for name, label, colour in lines:
         right.plot(t, MM * terms[name], color=colour, label=label)
-    open_ = terms["walls"] + terms["gas"] - sum(terms[n] for n in ("kinetic", "height", "friction", "damping"))
-    right.plot(t, MM * open_, "k--", lw=1, label="not accounted for (springs)")
+    right.plot(open_[0], MM * open_[1], "kx", label="not accounted for")
     right.set_xlabel("time, s")
     right.set_ylabel("energy of motion since the start, mJ")
     right.legend()
     figure.savefig(results / "motion.png", dpi=110)
-    return open_
 
 
 def main(results):
@@ -158,10 +168,13 @@ def main(results):
     draw_gas(results, bed)
     draw_heat(results, table, particles)
     terms = kiln.mechanics(table, particles)
-    open_ = draw_motion(results, table, bed, terms)
+    springs = kiln.Springs(results / "post")
+    open_ = left_over(table, terms, springs)
+    draw_motion(results, table, bed, terms, open_)
 
     received = sum(table[name][-1] for name in ("walls", "friction", "damping", "gas"))
-    power = np.polyfit(table["time"], terms["walls"], 1)[0]
+    late = table["time"] >= steady
+    power = np.polyfit(table["time"][late], terms["walls"][late], 1)[0]
     print(f"{particles} particles, {table['time'][-1]:.2f} s at Froude number {kiln.FROUDE:.4f}; means of the second half:")
     print(f"  surface of the bed at {bed.angle():.1f} degrees, walls do {1e3 * power:.1f} mW of work")
     print(f"  mean temperature of the bed {table['mean'][-1]:.4f} K; Biot number {table['biot'].mean():.2e}, "
@@ -170,8 +183,11 @@ def main(results):
     print(f"  heat to the bed {received:.4f} J; {100 * convection:.1f} % of what the wall gives comes through the gas")
     print(f"  heat not accounted for: particles {abs(table['open'][-1]) / received:.1e} of it; largest residuals of heat "
           f"handed over {table['handed over'].max():.1e}, of the gas's heat {table['gas residual'].max():.1e}")
-    print(f"  energy of motion not accounted for: {open_[-1] / terms['walls'][-1]:.1e} of the walls' work "
-          f"({1e3 * terms['walls'][-1]:.2f} mJ)")
+    work = terms["walls"][np.searchsorted(table["time"], open_[0][-1] - 1e-9)]
+    print(f"  energy of motion not accounted for: {open_[1][-1] / work:.1e} of the walls' work of {1e3 * work:.2f} mJ; "
+          f"springs hold {1e3 * springs.energy[-1]:.3f} mJ")
+    print(f"  overlaps of {springs.contacts[-1]} contacts: mean {springs.mean[-1]:.1e} of a diameter, largest ever found "
+          f"{springs.largest.max():.1e}")
 
 
 if __name__ == "__main__":

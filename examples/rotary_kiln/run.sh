@@ -73,6 +73,10 @@ results=results/$part
 rm -rf "$results"
 mkdir -p "$results"
 cp in.* end.stl "$settled/settled.restart" "$results"
-sed "${edits[@]}" -e '' kiln.toml >"$results/kiln.toml"
-granflux_in "$results" in.kiln -var time "$time" -var radius_of_contact "$radius"
+# Eight frames or more, at times that thermo output has too.
+every=$(awk -v t="$time" 'BEGIN { e = int(t / 0.08) / 100; print (e < 0.01 ? 0.01 : e > 0.25 ? 0.25 : e) }')
+edits+=(-e "s/^every = .*/every = $every/")
+sed "${edits[@]}" kiln.toml >"$results/kiln.toml"
+granflux_in "$results" in.kiln -var time "$time" -var every "$every" -var radius_of_contact "$radius"
 ./plot.py "$results"
+./owners.py "$results" "${variables[@]}"
