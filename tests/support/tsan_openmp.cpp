@@ -43,6 +43,17 @@ void work_in_region(void* argument) {
   barriers_passed = outer_barriers;
 }
 
+void wait_for_all(void (*wait)()) {
+  if (!region) {
+    wait();
+    return;
+  }
+  char* const place = &region->barrier[barriers_passed++ % 2];
+  __tsan_release(place);
+  wait();
+  __tsan_acquire(place);
+}
+
 } // namespace
 
 extern "C" {
@@ -57,14 +68,13 @@ void GOMP_parallel(Work work, void* data, unsigned threads, unsigned flags) {
 
 void GOMP_barrier() {
   static auto* const real = next<void()>("GOMP_barrier");
-  if (!region) {
-    real();
-    return;
-  }
-  char* const place = &region->barrier[barriers_passed++ % 2];
-  __tsan_release(place);
-  real();
-  __tsan_acquire(place);
+  wait_for_all(real);
+}
+
+/// The end of a loop whose parts threads take as they come.
+void GOMP_loop_end() {
+  static auto* const real = next<void()>("GOMP_loop_end");
+  wait_for_all(real);
 }
 
 void GOMP_critical_name_start(void** name) {
