@@ -31,8 +31,9 @@ def compare_radii(folders):
         name = name_of(results, "hertz")
         axis.plot(table["time"], 1e3 * share, color=colour, ls=style, label=name)
         wall = table["walls"][-1] / (table["walls"][-1] + table["gas"][-1])
-        print(f"{name}: (T - 298 K)/75 K = {share[-1]:.5f} after {table['time'][-1]:.2f} s; {100 * wall:.1f} % of it by conduction "
-              f"from the wall; Biot number mean {table['biot'][1:].mean():.1e}, largest {table['largest biot'].max():.1e}")
+        print(f"{name}: (T - 298 K)/75 K = {share[-1]:.5f} after {table['time'][-1]:.2f} s; {100 * wall:.1f} % of it "
+              f"by conduction from the wall; Biot number mean {table['biot'][1:].mean():.1e}, "
+              f"largest {table['largest biot'].max():.1e}")
     axis.set_xlabel("time, s")
     axis.set_ylabel("(T - 298 K)/75 K of the bed, thousandths")
     axis.set_xlim(left=0)
@@ -42,32 +43,39 @@ def compare_radii(folders):
 
 
 def compare_ends(folders):
-    figure, axes = plt.subplots(1, len(folders), figsize=(4.7 * len(folders), 5.4), sharey=True, layout="constrained")
-    for axis, results in zip(axes, folders):
-        table = kiln.thermo(results / "log.liggghts")
-        steady = 0.5 * table["time"][-1]
+    count = len(folders)
+    figure, axes = plt.subplots(1, 1 + count, figsize=(4.4 * (1 + count), 5.8), layout="constrained")
+    for results, axis, colour, style in zip(folders, axes[1:], (BLUE, ORANGE, GREEN), ("-", "--", "-.")):
+        table, name = kiln.thermo(results / "log.liggghts"), name_of(results, "turning")
+        inclination = np.degrees(np.arctan2(table["x"], -table["y"]))
+        axes[0].plot(table["time"], inclination, color=colour, ls=style, label=name)
+        late = table["time"] >= 0.75 * table["time"][-1]
         bed = kiln.MeanBed()
         for frame in kiln.frames(results / "post/particles.txt"):
-            if frame.time >= steady:
+            if frame.time >= 0.75 * table["time"][-1]:
                 bed.add(frame)
         vx, vy = bed.velocity()
         dense = bed.solids() > 0.1
         X, Y = np.meshgrid(bed.centres, bed.centres, indexing="ij")
         speed = MM * np.hypot(vx, vy)
-        arrows = axis.quiver(MM * X[dense], MM * Y[dense], MM * vx[dense], MM * vy[dense], speed[dense], cmap="viridis",
-                             scale=5000, width=3e-3, clim=(0, 300))
+        arrows = axis.quiver(MM * X[dense], MM * Y[dense], MM * vx[dense], MM * vy[dense], speed[dense],
+                             cmap="viridis", scale=6000, width=3e-3, clim=(0, 500))
         axis.plot(*MM * bed.surface().T, color="k", lw=1.5)
-        name = name_of(results, "turning")
-        drum(axis, f"ends: {name}\nsurface at {bed.angle():.1f} degrees")
-        terms = kiln.mechanics(table, len(frame.x))
-        late = table["time"] >= steady
-        power = np.polyfit(table["time"][late], terms["walls"][late], 1)[0]
-        print(f"{name}: surface at {bed.angle():.1f} degrees in the middle, centre of mass at ({MM * table['x'][late].mean():.1f}, "
-              f"{MM * table['y'][late].mean():.1f}) mm, walls do {1e3 * power:.0f} mW, fastest mean flow "
-              f"{speed[bed.solids() > 0.3].max():.0f} mm/s")
-    axes[0].set_ylabel("y, mm")
-    figure.colorbar(arrows, ax=axes, location="bottom", shrink=0.4, aspect=40, extend="max", label="mean speed of the particles, mm/s")
-    figure.savefig(folders[0] / "ends.png", dpi=110)
+        drum(axis, f"ends: {name}; {table['time'][late][0]:.2f} to {table['time'][-1]:.2f} s\n"
+                   f"surface at {bed.angle():.1f} degrees in the middle")
+        work = kiln.mechanics(table, len(frame.x))["walls"]
+        power = np.polyfit(table["time"][late], work[late], 1)[0]
+        print(f"{name}, {table['time'][late][0]:.2f} to {table['time'][-1]:.2f} s: "
+              f"surface at {bed.angle():.1f} degrees, centre of mass at {inclination[late].mean():.1f} degrees, "
+              f"walls do {1e3 * power:.0f} mW of work, kinetic energy {1e3 * table['motion'][late].mean():.2f} mJ")
+    axes[0].set_xlabel("time, s")
+    axes[0].set_ylabel("centre of mass, degrees from below the axis")
+    axes[0].set_xlim(0, 1)
+    axes[0].legend(title="ends")
+    axes[1].set_ylabel("y, mm")
+    figure.colorbar(arrows, ax=axes[1:], location="bottom", shrink=0.4, aspect=40, extend="max",
+                    label="mean speed of the particles, mm/s")
+    figure.savefig(folders[0] / "ends.png", dpi=110, bbox_inches="tight")
 
 
 if __name__ == "__main__":

@@ -153,7 +153,8 @@ class Springs:
                 if not len(rows):
                     continue
                 overlap, strain = rows[:, 3], rows[:, :3]
-                energy[step] = energy.get(step, 0.0) + 0.5 * STIFFNESS * ((overlap**2).sum() + 2 / 7 * (strain**2).sum())
+                stored = 0.5 * STIFFNESS * ((overlap**2).sum() + 2 / 7 * (strain**2).sum())
+                energy[step] = energy.get(step, 0.0) + stored
                 overlaps.setdefault(step, []).append(overlap)
         for frame in frames(post / "particles.txt"):
             overlap = np.maximum(np.hypot(*frame.x[:, :2].T) + DIAMETER / 2 - radius, 0)

@@ -38,7 +38,8 @@ def by_gas_block(results, x):
     """Number of the block whose cell is nearest."""
     gas = kiln.gas(sorted((results / "post").glob("gas_*.cgns"))[-1])
     centres = np.stack([gas["x"], gas["y"], gas["z"]], axis=1)
-    nearest = [np.argmin(((centres - part[:, None]) ** 2).sum(axis=2), axis=1) for part in np.array_split(x, 1 + len(x) // 500)]
+    nearest = [np.argmin(((centres - part[:, None]) ** 2).sum(axis=2), axis=1)
+               for part in np.array_split(x, 1 + len(x) // 500)]
     return gas["block"][np.concatenate(nearest)].astype(int)
 
 

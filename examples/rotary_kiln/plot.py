@@ -29,7 +29,7 @@ BLUE, ORANGE, GREEN, PINK, GREY = "#0072b2", "#e69f00", "#009e73", "#cc79a7", "0
 def drum(axis, title=None):
     """The outline of the drum, millimetres, and where it turns to."""
     axis.add_patch(plt.Circle((0, 0), MM * kiln.RADIUS, fill=False, color="k", lw=1))
-    axis.annotate("", xytext=(MM * kiln.RADIUS * 0.707, -MM * kiln.RADIUS * 0.8), xy=(MM * kiln.RADIUS * 0.86, -MM * kiln.RADIUS * 0.62),
+    axis.annotate("", xytext=(54, -61), xy=(65.5, -47),
                   arrowprops={"arrowstyle": "->", "connectionstyle": "arc3,rad=0.12", "color": "k"})
     axis.set_aspect("equal")
     axis.set_xlim(-80, 80)
@@ -110,7 +110,8 @@ def draw_heat(results, table, particles):
     right.set_ylabel("(T - 298 K)/75 K")
     above.set_title(f"{share[-1]:.5f} of the way to the wall's temperature after {table['time'][-1]:.1f} s")
     area = particles * np.pi * kiln.DIAMETER**2
-    for name, label, colour in (("gas W", "convection from the gas", BLUE), ("walls W", "conduction from the wall", ORANGE),
+    for name, label, colour in (("gas W", "convection from the gas", BLUE),
+                                ("walls W", "conduction from the wall", ORANGE),
                                 ("friction W", "friction", GREEN), ("damping W", "damping", PINK)):
         below.plot(table["time"][1:], table[name][1:] / area, color=colour, label=label, lw=1)
     below.set_yscale("log")
@@ -142,7 +143,8 @@ def draw_motion(results, table, bed, terms, open_):
     left.legend(loc="upper left")
     t = table["time"]
     lines = (("walls", "work of the walls", BLUE), ("friction", "turned into heat by friction", ORANGE),
-             ("damping", "by damping", PINK), ("height", "gained in height", GREEN), ("kinetic", "gained in speed", GREY))
+             ("damping", "by damping", PINK), ("height", "gained in height", GREEN),
+             ("kinetic", "gained in speed", GREY))
     for name, label, colour in lines:
         right.plot(t, MM * terms[name], color=colour, label=label)
     right.plot(open_[0], MM * open_[1], "kx", label="not accounted for")
@@ -175,19 +177,21 @@ def main(results):
     received = sum(table[name][-1] for name in ("walls", "friction", "damping", "gas"))
     late = table["time"] >= steady
     power = np.polyfit(table["time"][late], terms["walls"][late], 1)[0]
-    print(f"{particles} particles, {table['time'][-1]:.2f} s at Froude number {kiln.FROUDE:.4f}; means of the second half:")
+    print(f"{particles} particles, {table['time'][-1]:.2f} s at Froude number {kiln.FROUDE:.4f}; "
+          f"means of the second half:")
     print(f"  surface of the bed at {bed.angle():.1f} degrees, walls do {1e3 * power:.1f} mW of work")
     print(f"  mean temperature of the bed {table['mean'][-1]:.4f} K; Biot number {table['biot'].mean():.2e}, "
           f"largest {table['largest biot'].max():.2e}")
     convection = table["gas"][-1] / (table["gas"][-1] + table["walls"][-1])
     print(f"  heat to the bed {received:.4f} J; {100 * convection:.1f} % of what the wall gives comes through the gas")
-    print(f"  heat not accounted for: particles {abs(table['open'][-1]) / received:.1e} of it; largest residuals of heat "
-          f"handed over {table['handed over'].max():.1e}, of the gas's heat {table['gas residual'].max():.1e}")
+    print(f"  heat not accounted for: particles {abs(table['open'][-1]) / received:.1e} of it; largest "
+          f"residuals of heat handed over {table['handed over'].max():.1e}, "
+          f"of the gas's heat {table['gas residual'].max():.1e}")
     work = terms["walls"][np.searchsorted(table["time"], open_[0][-1] - 1e-9)]
     print(f"  energy of motion not accounted for: {open_[1][-1] / work:.1e} of the walls' work of {1e3 * work:.2f} mJ; "
           f"springs hold {1e3 * springs.energy[-1]:.3f} mJ")
-    print(f"  overlaps of {springs.contacts[-1]} contacts: mean {springs.mean[-1]:.1e} of a diameter, largest ever found "
-          f"{springs.largest.max():.1e}")
+    print(f"  overlaps of {springs.contacts[-1]} contacts: mean {springs.mean[-1]:.1e} of a diameter, "
+          f"largest ever found {springs.largest.max():.1e}")
 
 
 if __name__ == "__main__":

@@ -46,7 +46,8 @@ case $ends in
 esac
 if [[ $part == full ]]; then
   variables+=(-var length 76.2e-3 -var particles 100000)
-  edits+=(-e 's/^length = .*/length = 76.2e-3/' -e 's/^cells = .*/cells = [5, 10, 15]/' -e 's/^axial_blocks = .*/axial_blocks = 5/')
+  edits+=(-e 's/^length = .*/length = 76.2e-3/' -e 's/^cells = .*/cells = [5, 10, 15]/')
+  edits+=(-e 's/^axial_blocks = .*/axial_blocks = 5/')
 fi
 threads=${threads:-$((cores < 2 ? 1 : 2))}
 
