@@ -3,6 +3,7 @@
 """What is booked is what temperatures change by, what the sources come to, and what motion loses."""
 
 import math
+import random
 import unittest
 
 from host import CASE, HostTest, bed, couple, last_snapshot, thermo_rows
@@ -306,6 +307,58 @@ class EnergyOfMotion(HostTest):
         # So small that other errors of the last digits show at the shortest step.
         self.assertLess(abs(errors[-1]), 1e-6)
         self.assertGreater(math.log2(abs(errors[0] / errors[2])) / 2, 1.8)
+
+
+
+class EnergyOfACloud(HostTest):
+    """64 spheres that fly together, many of them touching several others at once: energy of motion, of
+    springs and heat together."""
+
+    KN, KT = 1000, 300
+
+    def cloud(self, seed):
+        random_, spheres = random.Random(seed), []
+        for n in range(64):
+            diameter = 1e-3 * (0.8 + 0.4 * random_.random())
+            place = tuple((m - 1.5) * 1.3e-3 + 1e-5 * random_.random() for m in (n % 4, n // 4 % 4, n // 16))
+            speed = tuple(-100 * x + 0.1 * (random_.random() - 0.5) for x in place)
+            spin = tuple(100 * (random_.random() - 0.5) for _ in range(3))
+            spheres.append((1, diameter, 2000, place, speed, spin))
+        return data_file(spheres, (-1e-2,) * 3, (1e-2,) * 3)
+
+    def error(self, dt, seed, damping):
+        self.write("data.spheres", self.cloud(seed))
+        steps = round(4e-3 / dt)
+        output = self.run_script(
+            head(dt=dt, kn=self.KN, kt=self.KT, gn=damping, gt=0.4 * damping)
+            + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 damping on conduction off\n"
+            + "compute rot all erotate/sphere\ncompute springs all pair/gran/local history delta\n"
+            + f"dump a all local {steps} springs c_springs[1] c_springs[2] c_springs[3] c_springs[4]\n"
+            + 'dump_modify a format "%.17g %.17g %.17g %.17g"\n'
+            + thermo("ke c_rot f_heat[16] f_heat[17]", steps)
+            + f"run {steps}\n"
+        )
+        rows = [list(map(float, line.split())) for line in self.read("springs").rsplit("ITEM: ENTRIES", 1)[1].splitlines()[1:]]
+        elastic = sum(self.KN / 2 * r[3] ** 2 + self.KT / 2 * (r[0] ** 2 + r[1] ** 2 + r[2] ** 2) for r in rows)
+        first, last = thermo_rows(output)[0], thermo_rows(output)[-1]
+        lost = first[2] + first[3] - last[2] - last[3] - elastic
+        self.assertGreater(lost, 0.3 * (first[2] + first[3]))
+        return (lost - last[4] - last[5]) / lost
+
+    def errors(self, name, damping):
+        found = [math.sqrt(sum(self.error(dt, seed, damping) ** 2 for seed in (1, 2)) / 2) for dt in (2e-6, 1e-6, 5e-7)]
+        print(f"cloud, {name}: energy not accounted for, of what is lost:", *(f"{e:.2e}" for e in found))
+        return found
+
+    def test_friction_alone(self):
+        errors = self.errors("friction", 0)
+        self.assertLess(errors[-1], 4e-4)
+        self.assertGreater(math.log2(errors[0] / errors[-1]) / 2, 1.5)
+
+    def test_damped(self):
+        # What springs of sliding hold when dashpots end a contact is not booked.
+        errors = self.errors("damped", 5e-3)
+        self.assertLess(errors[-1], 5e-3)
 
 
 if __name__ == "__main__":
