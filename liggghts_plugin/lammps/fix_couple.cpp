@@ -17,7 +17,9 @@
 #include <lammps/timer.h>
 #include <lammps/update.h>
 
+#include "fix_heat.hpp"
 #include "guard.hpp"
+#include "restart_values.hpp"
 #include "scene.hpp"
 
 namespace granflux::lammps {
@@ -41,13 +43,11 @@ FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   peratom_flag = 1;
   size_peratom_cols = shown_columns;
   peratom_freq = 1;
-  maxexchange = fluid_.columns();
   guard(*this, *error, [&] {
     refuse_second_fix();
     gas_ = std::make_unique<driver::GasDriver>(std::span(arg + 3, std::size_t(narg - 3)), world);
     if (gas_->with_heat())
-      throw ConfigError("the case has an [energy] table, but particles have no temperature in "
-                        "granflux_lammps");
+      heat_states_.emplace(std::vector<double>(coupling::heat_state_doubles));
     const std::string& held = gas_->options().fixed_group;
     const int held_group = held.empty() ? 0 : group->find(held);
     if (held_group < 0)
@@ -55,6 +55,7 @@ FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     host_ = std::make_unique<HostView>(lmp, fluid_, groupbit,
                                        held.empty() ? 0 : group->bitmask[held_group]);
   });
+  maxexchange = maxsize_restart();
   grow_arrays(atom->nmax);
   atom->add_callback(LAMMPS_NS::Atom::GROW);
   atom->add_callback(LAMMPS_NS::Atom::RESTART);
@@ -86,7 +87,7 @@ void FixCouple::warn_of_later_forces() {
   for (int i = 0; i < modify->nfix && !warned_of_later_forces_; ++i) {
     const Fix* other = modify->fix[i];
     if (later && (modify->fmask[i] & LAMMPS_NS::FixConst::POST_FORCE) &&
-        std::string_view(other->style) != "freeze") {
+        std::string_view(other->style) != "freeze" && !dynamic_cast<const FixHeat*>(other)) {
       host_->say(fmt::format("granflux: WARNING: fix {} (style {}) comes after fix {}, which does "
                              "not see its forces: define the gas after fixes that add forces\n",
                              other->id, other->style, id));
@@ -99,9 +100,25 @@ void FixCouple::warn_of_later_forces() {
 void FixCouple::setup(int) {
   guard(*this, *error, [&] {
     host_->find_held();
+    find_heat();
     gas_->set_up(*host_, run_steps(), update->dt);
     gas_->start_timers(); // LAMMPS' own begin after the set-up too
   });
+}
+
+/// Where the gas has a temperature, those of the particles are integrated together with it.
+void FixCouple::find_heat() {
+  if (!heat_states_)
+    return;
+  FixHeat* heat = nullptr;
+  for (int i = 0; i < modify->nfix; ++i)
+    if (auto* found = dynamic_cast<FixHeat*>(modify->fix[i]))
+      heat = found;
+  if (!heat)
+    throw ConfigError("the case has an [energy] table, but particles have no temperature: define "
+                      "fix granflux/heat");
+  heat->leave_steps_to_gas();
+  host_->set_heat(*heat, *heat_states_);
 }
 
 driver::RunSteps FixCouple::run_steps() const {
@@ -156,38 +173,41 @@ void FixCouple::restart(char* block) {
 
 void FixCouple::grow_arrays(int n) {
   fluid_.grow(n);
+  if (heat_states_)
+    heat_states_->grow(n);
   array_atom = fluid_.pointers();
 }
 
 void FixCouple::copy_arrays(int from, int to, int) {
   fluid_.copy(from, to);
+  if (heat_states_)
+    heat_states_->copy(from, to);
 }
 
 void FixCouple::set_arrays(int particle) {
   fluid_.set_fresh(particle);
+  if (heat_states_)
+    heat_states_->set_fresh(particle);
 }
 
 int FixCouple::pack_exchange(int particle, double* buffer) {
-  return fluid_.pack(particle, buffer);
+  const int n = fluid_.pack(particle, buffer);
+  return heat_states_ ? n + heat_states_->pack(particle, buffer + n) : n;
 }
 
 int FixCouple::unpack_exchange(int particle, double* buffer) {
-  return fluid_.unpack(particle, buffer);
+  const int n = fluid_.unpack(particle, buffer);
+  return heat_states_ ? n + heat_states_->unpack(particle, buffer + n) : n;
 }
 
-/// The first number is the length, itself included.
 int FixCouple::pack_restart(int particle, double* buffer) {
-  buffer[0] = maxsize_restart();
-  fluid_.pack(particle, buffer + 1);
+  buffer[0] = maxsize_restart(); // the length, itself included
+  pack_exchange(particle, buffer + 1);
   return maxsize_restart();
 }
 
-/// Behind the values of `nth` other fixes.
 void FixCouple::unpack_restart(int particle, int nth) {
-  const double* values = atom->extra[particle];
-  for (int i = 0; i < nth; ++i)
-    values += int(*values);
-  fluid_.unpack(particle, values + 1);
+  unpack_exchange(particle, restart_values(*atom, particle, nth));
 }
 
 int FixCouple::size_restart(int) {
@@ -195,11 +215,11 @@ int FixCouple::size_restart(int) {
 }
 
 int FixCouple::maxsize_restart() {
-  return fluid_.columns() + 1;
+  return fluid_.columns() + (heat_states_ ? heat_states_->columns() : 0) + 1;
 }
 
 double FixCouple::memory_usage() {
-  return fluid_.bytes();
+  return fluid_.bytes() + (heat_states_ ? heat_states_->bytes() : 0);
 }
 
 } // namespace granflux::lammps

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "fmt_of_lammps.hpp"
 
@@ -33,7 +34,7 @@ public:
   void write_restart(FILE* file) override;
   void restart(char* block) override;
 
-  // The fluid states of the particles.
+  // What the gas knows of the particles.
   void grow_arrays(int n) override;
   void copy_arrays(int from, int to, int) override;
   void set_arrays(int particle) override;
@@ -47,11 +48,13 @@ public:
 
 private:
   void refuse_second_fix() const;
+  void find_heat();
   void warn_of_later_forces();
   [[nodiscard]] driver::RunSteps run_steps() const;
 
   std::unique_ptr<driver::GasDriver> gas_;
   ParticleRows fluid_;
+  std::optional<ParticleRows> heat_states_; ///< where the gas has a temperature
   std::unique_ptr<HostView> host_;
   bool warned_of_later_forces_ = false;
 };

@@ -16,8 +16,10 @@ struct FixStyle {
 };
 
 LAMMPS_NS::Fix* create_couple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+LAMMPS_NS::Fix* create_heat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
 /// The styles of GranFlux.
-inline constexpr FixStyle fix_styles[] = {{"granflux/couple", create_couple}};
+inline constexpr FixStyle fix_styles[] = {{"granflux/couple", create_couple},
+                                          {"granflux/heat", create_heat}};
 
 } // namespace granflux::lammps

@@ -13,6 +13,7 @@
 #include <lammps/fix.h>
 #include <lammps/modify.h>
 
+#include "fix_heat.hpp"
 #include "scene.hpp"
 
 namespace granflux::lammps {
@@ -53,11 +54,23 @@ coupling::ParticleView HostView::particles(bool with_id) {
   view.mass = {atom->rmass, n};
   view.fluid = fluid_.view<coupling::FluidState>(atom->nlocal);
   groups_.show({atom->mask, n}, view);
+  if (heat_) {
+    heat_->show_to_gas(view);
+    view.heat = heat_states();
+  }
   if (with_id && atom->tag_enable) {
     id_.assign(atom->tag, atom->tag + n);
     view.id = id_;
   }
   return view;
+}
+
+std::span<coupling::HeatState> HostView::heat_states() {
+  return heat_states_->view<coupling::HeatState>(atom->nlocal);
+}
+
+double HostView::step_temperatures() {
+  return heat_->step_with_gas(heat_states().data());
 }
 
 void HostView::clear_frozen_forces() {

@@ -16,6 +16,8 @@
 
 namespace granflux::lammps {
 
+class FixHeat;
+
 /// LAMMPS as the gas sees it. Positions, velocities and forces are LAMMPS' own arrays; the fluid
 /// states are rows of the fix that has this view.
 class HostView : public driver::Host, private LAMMPS_NS::Pointers {
@@ -26,15 +28,24 @@ public:
   /// The fixes may have changed between runs: call before each.
   void find_held();
 
+  /// Where particles have temperatures, and what they exchange with the gas.
+  void set_heat(FixHeat& heat, ParticleRows& states) {
+    heat_ = &heat;
+    heat_states_ = &states;
+  }
+
   driver::Scene scene() override;
   coupling::ParticleView particles(bool with_id) override;
   void clear_frozen_forces() override;
-  /// Never asked: fix granflux/couple refuses a gas with a temperature here.
-  double step_temperatures() override { return 0; }
+  double step_temperatures() override;
   void say(const std::string& text) override;
 
 private:
+  [[nodiscard]] std::span<coupling::HeatState> heat_states();
+
   ParticleRows& fluid_;
+  FixHeat* heat_ = nullptr;
+  ParticleRows* heat_states_ = nullptr;
   driver::ParticleGroups groups_;
   std::vector<std::int64_t> id_;
 };

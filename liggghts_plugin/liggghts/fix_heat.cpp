@@ -45,10 +45,6 @@ using particle_subset::WallHeatRates;
 
 namespace {
 
-constexpr int vector_length = 24;
-constexpr double biot_limit = 0.1;      // above it a particle is not of one temperature
-constexpr double radiation_limit = 700; // K; above it radiation cannot be neglected
-
 template <class Row> Row* rows(const LAMMPS_NS::FixPropertyAtom& property) {
   return property.array_atom ? reinterpret_cast<Row*>(property.array_atom[0]) : nullptr;
 }
@@ -75,7 +71,7 @@ template <class Work> void FixHeat::guard(Work&& work) {
 FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
   restart_global = 1;
   scalar_flag = vector_flag = 1;
-  size_vector = vector_length;
+  size_vector = driver::HeatReport::values;
   global_freq = 1;
   extscalar = 1;
   extvector = 0;
@@ -87,7 +83,7 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, 
       throw ConfigError(fmt::format("group {}: must be all; fixed_temperature names groups whose "
                                     "temperatures stay",
                                     group->names[igroup]));
-    options_ = read_heat_options({arg + 3, std::size_t(narg - 3)});
+    options_ = driver::read_heat_options({arg + 3, std::size_t(narg - 3)});
     for (const std::string& name : options_.fixed_groups)
       if (group->find(name.c_str()) < 0)
         throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
@@ -395,16 +391,18 @@ void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles)
                           .c_str());
 }
 
-double FixHeat::heat_of_rank() const {
-  coupling::CompensatedSum heat;
-  for (int i = 0; i < atom->nlocal; ++i)
-    heat += atom->rmass[i] * materials_.capacity[std::size_t(atom->type[i]) - 1] *
-            (temperature_->vector_atom[i] + carry_->vector_atom[i]);
-  return heat.value();
+driver::WarmParticles FixHeat::particles() const {
+  const auto n = std::size_t(atom->nlocal);
+  return {.temperature = {temperature_->vector_atom, n},
+          .carry = {carry_->vector_atom, n},
+          .mass = {atom->rmass, n},
+          .radius = {atom->radius, n},
+          .type = {atom->type, n},
+          .capacity = materials_.capacity};
 }
 
 double FixHeat::heat_of_all_ranks() const {
-  double heat = heat_of_rank();
+  double heat = heat_of(particles());
   MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
   return heat;
 }
@@ -414,65 +412,13 @@ void FixHeat::look_at_temperatures() {
   if (looked_at_ == update->ntimestep)
     return;
   looked_at_ = update->ntimestep;
-  const bool conducts = options_.contacts.radius.has_value();
-  Temperatures mine{.low = std::numeric_limits<double>::infinity(),
-                    .high = -std::numeric_limits<double>::infinity()};
-  const auto* details = rows<HeatDetails>(*details_);
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const auto type = std::size_t(atom->type[i]) - 1;
-    const double temperature = temperature_->vector_atom[i];
-    mine.capacity += atom->rmass[i] * materials_.capacity[type];
-    mine.low = std::min(mine.low, temperature);
-    mine.high = std::max(mine.high, temperature);
-    if (conducts) {
-      const double biot = coupling::biot_number(
-          details[i].conductance, materials_.materials[type].conductivity, atom->radius[i]);
-      mine.biot_sum += biot;
-      mine.biot_max = std::max(mine.biot_max, biot);
-    }
-  }
-  mine.heat = heat_of_rank();
-  mine.particles = atom->nlocal;
-  reduced_ = {powers_, books_.value()};
-  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), doubles(sizeof reduced_), MPI_DOUBLE, MPI_SUM,
-                world);
-  double sums[] = {mine.heat, mine.capacity, mine.biot_sum, mine.particles};
-  double extremes[] = {mine.high, -mine.low, mine.biot_max};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world);
-  // By particles, less what those of fixed temperature passed on.
-  const HeatPowers& e = reduced_[1];
-  const double received = e.conduction + e.walls + e.friction + e.damping + e.convection +
-                          e.source + e.radiation - e.held;
-  temperatures_ = {.heat = sums[0],
-                   .capacity = sums[1],
-                   .low = -extremes[1],
-                   .high = extremes[0],
-                   .biot_sum = sums[2],
-                   .biot_max = extremes[2],
-                   .particles = sums[3],
-                   .carried = sums[0] - heat_at_start_.value_or(sums[0]) - received};
-  warn_of_biot_number();
-  warn_of_radiation();
-}
-
-void FixHeat::warn_of_radiation() {
-  if (options_.near.surroundings || temperatures_.high <= radiation_limit || warned_of_radiation_)
-    return;
-  warned_of_radiation_ = true;
-  say(fmt::format("granflux: WARNING: the hottest particle has {:.0f} K: above {} K radiation "
-                  "matters, which is off (keyword radiation)\n",
-                  temperatures_.high, radiation_limit));
-}
-
-void FixHeat::warn_of_biot_number() {
-  if (temperatures_.biot_max <= biot_limit || warned_of_biot_)
-    return;
-  warned_of_biot_ = true;
-  say(fmt::format(
-      "granflux: WARNING: the largest Biot number of a particle is {:.3g}: above {} its "
-      "inside is not of one temperature, as is assumed\n",
-      temperatures_.biot_max, biot_limit));
+  std::optional<driver::HeatReport::Conduction> conduction;
+  if (options_.contacts.radius)
+    conduction = {.conductance = [details = rows<HeatDetails>(*details_)](
+                                     int i) { return details[i].conductance; },
+                  .materials = materials_.materials};
+  report_.look(particles(), conduction, powers_, books_, heat_at_start_, world);
+  say(report_.warnings(options_.near.surroundings.has_value()));
 }
 
 void FixHeat::post_run() {
@@ -480,52 +426,22 @@ void FixHeat::post_run() {
     return;
   looked_at_ = -1;
   look_at_temperatures();
-  const Temperatures& t = temperatures_;
-  if (options_.contacts.radius && t.particles > 0)
-    say(fmt::format("granflux: Biot number of the particles at the end of the run: mean {:.3g}, "
-                    "largest {:.3g}\n",
-                    t.biot_sum / t.particles, t.biot_max));
+  if (options_.contacts.radius)
+    say(report_.biot_numbers());
 }
 
 double FixHeat::compute_scalar() {
   if (materials_.capacity.empty())
     return 0; // before the first run
   look_at_temperatures();
-  return temperatures_.heat;
+  return report_.heat();
 }
 
 double FixHeat::compute_vector(int n) {
   if (materials_.capacity.empty())
     return 0; // before the first run
   look_at_temperatures();
-  const Temperatures& t = temperatures_;
-  const bool any = t.particles > 0;
-  const auto& [powers, energies] = reduced_;
-  const std::array<double, vector_length> values{any ? t.heat / t.capacity : 0,
-                                                 any ? t.low : 0,
-                                                 any ? t.high : 0,
-                                                 any ? t.biot_sum / t.particles : 0,
-                                                 t.biot_max,
-                                                 powers.conduction,
-                                                 powers.walls,
-                                                 powers.friction,
-                                                 powers.damping,
-                                                 powers.convection,
-                                                 powers.source,
-                                                 powers.to_walls,
-                                                 powers.held,
-                                                 energies.conduction,
-                                                 energies.walls,
-                                                 energies.friction,
-                                                 energies.damping,
-                                                 energies.convection,
-                                                 energies.source,
-                                                 energies.to_walls,
-                                                 energies.held,
-                                                 t.carried,
-                                                 powers.radiation,
-                                                 energies.radiation};
-  return values[std::size_t(n)];
+  return report_.value(n);
 }
 
 void FixHeat::write_restart(FILE* file) {
@@ -533,7 +449,7 @@ void FixHeat::write_restart(FILE* file) {
 }
 
 void FixHeat::restart(char* block) {
-  guard([&] { books_ = read_heat_books(block, heat_at_start_, world); });
+  guard([&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
 }
 
 } // namespace granflux::liggghts

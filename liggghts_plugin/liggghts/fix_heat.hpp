@@ -12,9 +12,10 @@
 
 #include <granflux/coupling/particle_view.hpp>
 
-#include "heat_books.hpp"
+#include "driver/heat_books.hpp"
+#include "driver/heat_options.hpp"
+#include "driver/heat_report.hpp"
 #include "heat_materials.hpp"
-#include "heat_options.hpp"
 #include "particle_subset/heat_port.hpp"
 #include "particle_subset/temperature_step.hpp"
 
@@ -64,15 +65,6 @@ public:
   void show_to_gas(coupling::ParticleView& view);
 
 private:
-  /// Over all particles of all ranks.
-  struct Temperatures {
-    double heat = 0;     ///< sum m c T [J]
-    double capacity = 0; ///< sum m c [J/K]
-    double low = 0, high = 0;
-    double biot_sum = 0, biot_max = 0, particles = 0;
-    double carried = 0; ///< heat that is not accounted for by what was received [J]
-  };
-
   template <class Work> void guard(Work&& work);
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool ghosts,
                                        double initial);
@@ -83,16 +75,14 @@ private:
   void step(coupling::HeatState* gas);
   void check_time_step(const particle_subset::HeatedParticles& particles) const;
   [[nodiscard]] particle_subset::HeatShown shown() const;
+  [[nodiscard]] driver::WarmParticles particles() const;
   void look_at_temperatures();
-  void warn_of_biot_number();
-  void warn_of_radiation();
-  [[nodiscard]] double heat_of_rank() const;
   [[nodiscard]] double heat_of_all_ranks() const;
   [[nodiscard]] std::string effects() const;
   [[nodiscard]] int held_bits() const;
   void say(const std::string& text) const;
 
-  HeatOptions options_;
+  driver::HeatOptions options_;
   HeatMaterials materials_;
   particle_subset::ContactHeat law_;
 
@@ -113,12 +103,10 @@ private:
   std::vector<std::uint8_t> is_held_;
   bool said_ = false;                   // what is in use
   std::optional<double> heat_at_start_; // of all ranks when the books were opened [J]
-  HeatPowers powers_;                   // of the last step, this rank
-  HeatBooks books_;                     // of this rank
-  Temperatures temperatures_;
-  std::array<HeatPowers, 2> reduced_{}; // of all ranks: powers [W] and energies [J]
-  LAMMPS_NS::bigint looked_at_ = -1;    // step of temperatures_
-  bool warned_of_biot_ = false, warned_of_radiation_ = false;
+  driver::HeatPowers powers_;           // of the last step, this rank
+  driver::HeatBooks books_;             // of this rank
+  driver::HeatReport report_;
+  LAMMPS_NS::bigint looked_at_ = -1; // step of report_
 };
 
 } // namespace granflux::liggghts

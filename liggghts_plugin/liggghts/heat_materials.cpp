@@ -60,7 +60,7 @@ std::vector<double> emissivities(LAMMPS_NS::LAMMPS& lammps) {
 
 } // namespace
 
-HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps, const HeatOptions& wanted) {
+HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps, const driver::HeatOptions& wanted) {
   using particle_subset::FrictionHeat;
   const particle_subset::ContactHeatOptions& options = wanted.contacts;
   HeatMaterials read;

@@ -6,7 +6,7 @@
 
 #include <liggghts/pointers.h>
 
-#include "heat_options.hpp"
+#include "driver/heat_options.hpp"
 
 namespace granflux::liggghts {
 
@@ -19,6 +19,6 @@ struct HeatMaterials {
 };
 
 /// Throws ConfigError where a property that the options call for is missing or not positive.
-HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps, const HeatOptions& wanted);
+HeatMaterials read_heat_materials(LAMMPS_NS::LAMMPS& lammps, const driver::HeatOptions& wanted);
 
 } // namespace granflux::liggghts

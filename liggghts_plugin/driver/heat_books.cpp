@@ -11,7 +11,7 @@
 
 #include <granflux/cfd/error.hpp>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 namespace {
 
@@ -108,4 +108,4 @@ HeatBooks read_heat_books(const char* block, std::optional<double>& heat_at_star
   return sum;
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

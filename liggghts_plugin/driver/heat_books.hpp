@@ -8,7 +8,7 @@
 
 #include <granflux/coupling/compensated_sum.hpp>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// Powers that the particles of a rank receive in a step [W], in the order of the books.
 struct HeatPowers {
@@ -33,7 +33,7 @@ struct HeatBooks {
 };
 
 /// Rank 0 gathers the books of all ranks and writes them as one block, its length first, as
-/// LIGGGHTS reads it back. `heat_at_start`: of all particles when the books were opened [J]; empty:
+/// hosts read it back. `heat_at_start`: of all particles when the books were opened [J]; empty:
 /// they were not. Collective.
 void write_heat_books(const HeatBooks& mine, std::optional<double> heat_at_start, std::FILE* file,
                       MPI_Comm comm);
@@ -42,4 +42,4 @@ void write_heat_books(const HeatBooks& mine, std::optional<double> heat_at_start
 /// ranks rank 0 continues the books of all. Throws ConfigError where the format is another.
 HeatBooks read_heat_books(const char* block, std::optional<double>& heat_at_start, MPI_Comm comm);
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

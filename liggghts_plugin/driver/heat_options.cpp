@@ -12,7 +12,7 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/nearest_name.hpp>
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 namespace {
 
@@ -102,4 +102,4 @@ HeatOptions read_heat_options(std::span<char*> words) {
   return options;
 }
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver

@@ -9,7 +9,7 @@
 #include "particle_subset/contact_heat.hpp"
 #include "particle_subset/near_heat.hpp"
 
-namespace granflux::liggghts {
+namespace granflux::driver {
 
 /// The words after `fix ID group granflux/heat`.
 struct HeatOptions {
@@ -22,4 +22,4 @@ struct HeatOptions {
 /// Throws ConfigError that names the word and what is allowed.
 HeatOptions read_heat_options(std::span<char*> words);
 
-} // namespace granflux::liggghts
+} // namespace granflux::driver
