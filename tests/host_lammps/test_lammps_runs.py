@@ -6,7 +6,7 @@ number of ranks and with either newton."""
 import unittest
 
 from host import couple, largest_difference, last_snapshot, thermo_rows
-from two_hosts import COUPLED, TwoHostTest, dump, lammps_bed, thermo
+from two_hosts import COUPLED, DENSITY, DIAMETER, TwoHostTest, dump, lammps_bed, thermo
 
 
 class Runs(TwoHostTest):
@@ -83,6 +83,33 @@ class Runs(TwoHostTest):
             self.assertEqual(row[COUPLED], 90)
         held = self.script("run 40\n", more="fixed_group low").replace("fix gas", group + "fix gas")
         self.check_residuals(self.run_lammps(held))
+
+    def test_particles_come_and_go(self):
+        runs = (
+            "run 40\ncreate_atoms 1 single 5e-3 3e-3 15e-3\n"
+            f"set atom 181 diameter {DIAMETER} density {DENSITY}\nrun 40\n"
+            "group gone id <= 10\ndelete_atoms group gone\nrun 40\n"
+        )
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                output = self.run_lammps(lammps_bed() + couple(5) + thermo() + runs, ranks)
+                rows = thermo_rows(output)
+                self.assertEqual([row[COUPLED] for row in rows[2::3]], [180, 181, 171])
+                for row in rows:
+                    self.assertLess(row[-3], 1e-12)  # momentum handed over
+
+    def test_poured_particles(self):
+        pour = (
+            "region top block 2e-3 8e-3 2e-3 4e-3 20e-3 30e-3\n"
+            f"fix pour all pour 8 1 4767 region top vol 0.1 50 diam one {DIAMETER} dens {DENSITY} {DENSITY}\n"
+        )
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                script = lammps_bed() + pour + couple(5) + thermo() + "run 200\n"
+                rows = thermo_rows(self.run_lammps(script, ranks))
+                self.assertEqual(rows[-1][COUPLED], 188)
+                for row in rows:
+                    self.assertLess(row[-3], 1e-12)
 
     def test_forces_of_later_fixes_are_told(self):
         gravity = "fix             gravity all gravity 9.81 vector 0 0 -1\n"
