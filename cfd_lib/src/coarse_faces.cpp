@@ -17,12 +17,6 @@ constexpr std::size_t u(int i) {
   return std::size_t(i);
 }
 
-/// Share of the coefficient that is left when the distance between cells that were one apart has
-/// grown to the mean of the coarse cells' widths.
-double over_distance(int width_below, int width_above) {
-  return 2.0 / (width_below + width_above);
-}
-
 /// sum[I] += the fine faces that coarse face I of a row is made of, d the direction normal to the
 /// row's faces: every one where they lie side by side in the row, the one between coarse cells
 /// where the row runs across them.
@@ -134,9 +128,9 @@ void join_level(const Level& fine, Level& coarse) {
     const int id = fine.mesh.local[b].id;
     for (int d = 0; d < 3; ++d)
       if (!closed_on_itself(coarse.mesh, id, d))
-        join_faces(fine.blocks[b], fine.pairings[u(id)], d, coarse.blocks[b]);
+        join_faces(fine.blocks[b], coarse.pairings[u(id)], d, coarse.blocks[b]);
   }
-  for (const LinkFactor& link : fine.link_factors) {
+  for (const LinkFactor& link : coarse.link_factors) {
     const LevelLayout& layout = coarse.blocks[link.block].layout;
     float* joined = coarse.blocks[link.block].coefficient[u(link.direction)].data();
     for (int k = link.faces.lo[2]; k < link.faces.hi[2]; ++k)

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarsest_solver.hpp"
 
-#include <Eigen/SparseCholesky>
-
-#include <granflux/cfd/error.hpp>
-
 #include "cell_numbering.hpp"
+#include "direct_factor.hpp"
 
 namespace granflux::cfd {
 
@@ -18,9 +15,8 @@ constexpr int faces_per_cell = CellNumbering::faces;
 
 struct CoarsestSolver::Impl {
   Impl(const Mesh& m, bool is_singular)
-      : mesh(m), singular(is_singular), numbering(m), cells(numbering.cells),
-        neighbours(std::size_t(cells)), all(neighbours.size() * faces_per_cell), rhs(cells),
-        solution(cells) {
+      : mesh(m), numbering(m), cells(numbering.cells), neighbours(std::size_t(cells)),
+        all(neighbours.size() * faces_per_cell), rhs(cells), factor(is_singular) {
     MPI_Comm_rank(mesh.comm, &rank);
     for (int id = 0; id < int(mesh.blocks.size()); ++id)
       for_each_in_order(mesh.blocks[std::size_t(id)].cells, [&](const Index3& cell) {
@@ -39,16 +35,14 @@ struct CoarsestSolver::Impl {
   }
 
   const Mesh& mesh;
-  bool singular;
   CellNumbering numbering;
   int rank = 0, cells;
   std::vector<std::array<int, faces_per_cell>> neighbours;
   std::vector<double> mine, all;
-  Eigen::VectorXd rhs, solution;
-  Eigen::SparseMatrix<double> lower;
-  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd rhs;
+  DirectFactor::Entries entries;
   bool analysed = false;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  DirectFactor factor;
 };
 
 CoarsestSolver::CoarsestSolver(const Mesh& mesh, bool singular)
@@ -81,18 +75,10 @@ void CoarsestSolver::factorise(const Level& level) {
       if (other >= 0 && other < n)
         s.entries.emplace_back(n, other, -c[f]);
     }
-    if (s.singular && n == 0) // ties the first cell to 0; the mean is taken off afterwards
-      diagonal = diagonal > 0 ? 2 * diagonal : 1;
     s.entries.emplace_back(n, n, diagonal);
   }
-  s.lower.resize(s.cells, s.cells);
-  s.lower.setFromTriplets(s.entries.begin(), s.entries.end());
-  if (!s.analysed)
-    s.factor.analyzePattern(s.lower), s.analysed = true;
-  s.factor.factorize(s.lower);
-  if (s.factor.info() != Eigen::Success)
-    throw NumericalError("pressure equation: the coarsest level could not be factorised; a "
-                         "coefficient is not a number, or a part of the gas has no opening");
+  s.factor.factorise(s.cells, s.entries, s.analysed);
+  s.analysed = true;
 }
 
 void CoarsestSolver::solve(Level& level) {
@@ -103,18 +89,14 @@ void CoarsestSolver::solve(Level& level) {
       s.mine[at++] = block.rhs.data()[block.layout.at(cell)];
     });
   s.gather(s.rhs.data(), 1);
-  if (s.singular)
-    s.rhs.array() -= s.rhs.mean();
-  s.solution = s.factor.solve(s.rhs);
-  if (s.singular)
-    s.solution.array() -= s.solution.mean();
+  const Eigen::VectorXd solution = s.factor.solve(s.rhs);
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
     int n = s.numbering.first[std::size_t(level.mesh.local[b].id)];
     double product = 0;
     for_each_in_order(block.layout.cells, [&](const Index3& cell) {
       const std::ptrdiff_t c = block.layout.at(cell);
-      block.x.data()[c] = float(s.solution[n++]);
+      block.x.data()[c] = float(solution[n++]);
       product += double(block.rhs.data()[c]) * double(block.x.data()[c]);
     });
     if (!block.products.empty()) // this level is also the finest: all in the first row's place

@@ -5,27 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <granflux/cfd/error.hpp>
 
 #include "coarsest_solver.hpp"
-#include "multigrid_level.hpp"
+#include "graph_level.hpp"
+#include "split_levels.hpp"
 
 namespace granflux::cfd {
 
 namespace {
 
+/// Of CellGroups: coarse cells whose cells are coupled worse than this are split. Error of that
+/// shape shrinks by a factor like this, which conjugate gradients notice as a mode of its own.
+constexpr double badly_coupled = 0.003;
+/// Where more than this share of the coarse cells are split, cells are coupled badly everywhere,
+/// and the smoother reaches further down.
+constexpr double often = 0.01;
+
 constexpr long largest_coarsest = 300; ///< cells; beyond, a factorisation costs more than a level
 
 constexpr std::size_t u(int i) {
   return std::size_t(i);
-}
-
-long cells_of(const Mesh& mesh) {
-  long cells = 0;
-  for (const BlockInfo& info : mesh.blocks)
-    cells += long(info.cells[0]) * info.cells[1] * info.cells[2];
-  return cells;
 }
 
 /// Smallest and largest diagonal of A over all ranks.
@@ -45,30 +47,42 @@ bool is_centred(const DiagonalRange& range, double scale) {
   return range.least * scale > 1 / far && range.most * scale < far;
 }
 
+/// How cells join into the next level; nothing where none do.
+std::optional<Pairings> joining(Coarsening& coarsening, const Mesh& mesh) {
+  Pairings pairings = coarsening.next(mesh);
+  for (const auto& of_block : pairings)
+    for (const Pairing& pairing : of_block)
+      if (pairing.pairs)
+        return pairings;
+  return std::nullopt;
+}
+
 } // namespace
 
 struct Multigrid::Impl {
-  Impl(const Mesh& mesh, bool singular) : smoothing(smoothing_for(mesh)) {
+  Impl(const Mesh& mesh, bool is_singular)
+      : singular(is_singular), by_mesh(smoothing_for(mesh)), smoothing(by_mesh) {
     levels.push_back(std::make_unique<Level>(mesh, smoothing));
     Coarsening coarsening(mesh);
-    for (;;) {
-      Level& fine = *levels.back();
-      const long cells = cells_of(fine.mesh);
-      if (cells <= largest_coarsest)
-        break;
-      Pairings pairings = coarsening.next(fine.mesh);
-      Mesh joined = join_cells(fine.mesh, pairings);
-      const long joined_cells = cells_of(joined);
-      if (joined_cells == cells)
-        break;
-      meshes.push_back(std::make_unique<Mesh>(std::move(joined)));
-      levels.push_back(std::make_unique<Level>(*meshes.back(), fine));
-      fine.link_factors = link_factors(fine.mesh, *meshes.back(), pairings);
-      fine.pairings = std::move(pairings);
+    while (const auto pairings = joining(coarsening, levels.back()->mesh)) {
+      const Level& fine = *levels.back();
+      if (structured == 0 && cells_of_all_ranks(fine.mesh) <= largest_coarsest)
+        structured = levels.size();
+      meshes.push_back(std::make_unique<Mesh>(join_cells(fine.mesh, *pairings)));
+      auto coarse = std::make_unique<Level>(*meshes.back(), fine);
+      coarse->link_factors = link_factors(fine.mesh, *meshes.back(), *pairings);
+      coarse->pairings = *pairings;
       // Two visits make up for what the simple transfer lacks, where they are cheap.
-      fine.visits = 4 * joined_cells <= cells ? 2 : 1;
+      coarse->visits =
+          4 * cells_of_all_ranks(coarse->mesh) <= cells_of_all_ranks(fine.mesh) ? 2 : 1;
+      levels.push_back(std::move(coarse));
     }
-    coarsest = std::make_unique<CoarsestSolver>(levels.back()->mesh, singular);
+    if (structured == 0)
+      structured = levels.size();
+    // The coarsest level is solved exactly: once is enough.
+    Level& last = *levels[structured - 1];
+    last.visits = 1;
+    coarsest = std::make_unique<CoarsestSolver>(last.mesh, singular);
     for (LevelBlock& block : levels.front()->blocks)
       block.products.resize(std::size_t(block.layout.cells[1]) *
                             std::size_t(block.layout.cells[2]));
@@ -77,15 +91,19 @@ struct Multigrid::Impl {
   /// One cycle for the level's x.
   void cycle(std::size_t l, Start start) {
     Level& fine = *levels[l];
-    if (l + 1 == levels.size()) {
+    if (l + 1 == structured) {
       coarsest->solve(fine);
+      return;
+    }
+    if (split && l == split_from) {
+      smooth_and_restrict(fine, split->cells(), start);
+      split->correct();
+      correct_and_smooth(split->cells(), fine);
       return;
     }
     Level& coarse = *levels[l + 1];
     smooth_and_restrict(fine, coarse, start);
-    // The coarsest level is solved exactly: once is enough.
-    const int visits = l + 2 == levels.size() ? 1 : fine.visits;
-    for (int visit = 0; visit < visits; ++visit)
+    for (int visit = 0; visit < coarse.visits; ++visit)
       cycle(l + 1, visit == 0 ? Start::zero : Start::iterate);
     correct_and_smooth(coarse, fine);
   }
@@ -94,11 +112,18 @@ struct Multigrid::Impl {
   [[nodiscard]] bool has(const PressureSystem& system) const;
   /// Takes them from the system, times scale; throws where a diagonal is not a positive number.
   DiagonalRange take(const PressureSystem& system);
+  /// Coefficients of the coarse levels from those of the finest.
+  void join();
 
-  Smoothing smoothing;
+  bool singular;
+  Smoothing by_mesh;                         ///< what the mesh asks for
+  Smoothing smoothing;                       ///< what the levels use
   std::vector<std::unique_ptr<Mesh>> meshes; ///< of the coarse levels
   std::vector<std::unique_ptr<Level>> levels;
+  std::size_t structured = 0; ///< levels of the cycle; those beyond serve where cells are split
   std::unique_ptr<CoarsestSolver> coarsest;
+  std::unique_ptr<SplitLevels> split; ///< where cells are joined badly: all below `split_from`
+  std::size_t split_from = 0;
   bool ready = false;
   double scale = 1; ///< a power of 2 that brings the coefficients near 1
 };
@@ -186,6 +211,28 @@ DiagonalRange Multigrid::Impl::take(const PressureSystem& system) {
   return {ends[0], -ends[1], ends[2] > 0};
 }
 
+void Multigrid::Impl::join() {
+  std::vector<long> bad;
+  for (std::size_t l = 1; l < structured; ++l) {
+    join_level(*levels[l - 1], *levels[l]);
+    bad.push_back(badly_joined(*levels[l - 1], *levels[l], badly_coupled));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, bad.data(), int(bad.size()), MPI_LONG, MPI_SUM,
+                levels.front()->mesh.comm);
+  const auto worst = std::find_if(bad.begin(), bad.end(), [](long cells) { return cells > 0; });
+  split.reset();
+  smoothing = by_mesh;
+  if (worst == bad.end()) {
+    coarsest->factorise(*levels[structured - 1]);
+    return;
+  }
+  split_from = std::size_t(worst - bad.begin());
+  if (double(*worst) > often * double(cells_of_all_ranks(levels[split_from + 1]->mesh)) &&
+      by_mesh.count() < far_reaching_smoothing().count())
+    smoothing = far_reaching_smoothing();
+  split = std::make_unique<SplitLevels>(levels, split_from, largest_coarsest, singular);
+}
+
 Multigrid::Multigrid(const Mesh& mesh, bool singular)
     : impl_(std::make_unique<Impl>(mesh, singular)) {}
 
@@ -206,9 +253,7 @@ void Multigrid::setup(const PressureSystem& system) {
   if (!range.good)
     throw NumericalError("pressure equation: the coefficients of a cell are all zero, or not "
                          "numbers");
-  for (std::size_t l = 1; l < s.levels.size(); ++l)
-    join_level(*s.levels[l - 1], *s.levels[l]);
-  s.coarsest->factorise(*s.levels.back());
+  s.join();
   s.ready = true;
 }
 
@@ -242,8 +287,14 @@ double Multigrid::apply() {
 
 std::vector<long> Multigrid::level_sizes() const {
   std::vector<long> sizes;
-  for (const auto& level : impl_->levels)
-    sizes.push_back(cells_of(level->mesh));
+  for (std::size_t l = 0; l < impl_->structured; ++l) {
+    sizes.push_back(cells_of_all_ranks(impl_->levels[l]->mesh));
+    if (impl_->split && l == impl_->split_from) {
+      const std::vector<long> nodes = impl_->split->sizes();
+      sizes.insert(sizes.end(), nodes.begin(), nodes.end());
+      break;
+    }
+  }
   return sizes;
 }
 

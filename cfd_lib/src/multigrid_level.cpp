@@ -78,14 +78,23 @@ Smoothing smoothing_for(const Mesh& finest) {
     return Smoothing::above(1.0 / 4, 3);
   if (spread < 100)
     return Smoothing::above(1.0 / 16, 6);
+  return far_reaching_smoothing();
+}
+
+Smoothing far_reaching_smoothing() {
   return Smoothing::above(1.0 / 24, 8);
 }
 
-LevelBlock::LevelBlock(Index3 cells, int outer_direction)
-    : layout(cells), coefficient{FloatField(layout.size), FloatField(layout.size),
-                                 FloatField(layout.size)},
-      inverse_diagonal(layout.size), rhs(layout.size), x(layout.size), spare(layout.size),
-      inner(3 - outer_direction), outer(outer_direction) {}
+LevelBlock::LevelBlock(Index3 cells, int outer_direction, Holds what)
+    : layout(cells), rhs(layout.size), x(layout.size), inner(3 - outer_direction),
+      outer(outer_direction) {
+  if (what == Holds::transfer)
+    return;
+  for (FloatField& along : coefficient)
+    along = FloatField(layout.size);
+  inverse_diagonal = FloatField(layout.size);
+  spare = FloatField(layout.size);
+}
 
 namespace {
 
@@ -117,6 +126,13 @@ std::vector<LevelBlock> make_blocks(const Mesh& mesh, const Level& finer) {
 
 } // namespace
 
+long cells_of_all_ranks(const Mesh& mesh) {
+  long cells = 0;
+  for (const BlockInfo& info : mesh.blocks)
+    cells += long(info.cells[0]) * info.cells[1] * info.cells[2];
+  return cells;
+}
+
 Level::Level(const Mesh& m, std::vector<LevelBlock> b, const Smoothing& how)
     : mesh(m), linked(is_linked(m)),
       halo(m, 1, [&](std::size_t block, const Index3& cell) { return b[block].layout.at(cell); }),
@@ -125,6 +141,15 @@ Level::Level(const Mesh& m, std::vector<LevelBlock> b, const Smoothing& how)
 Level::Level(const Mesh& finest, const Smoothing& how) : Level(finest, make_blocks(finest), how) {}
 Level::Level(const Mesh& m, const Level& finer)
     : Level(m, make_blocks(m, finer), finer.smoothing) {}
+
+Level Level::cell_by_cell(const Level& level) {
+  std::vector<LevelBlock> blocks;
+  for (const LevelBlock& block : level.blocks)
+    blocks.emplace_back(block.layout.cells, block.outer, LevelBlock::Holds::transfer);
+  Level cells(level.mesh, std::move(blocks), level.smoothing);
+  cells.pairings.resize(level.mesh.blocks.size());
+  return cells;
+}
 
 void Level::exchange(FloatField LevelBlock::*field) {
   if (!linked)

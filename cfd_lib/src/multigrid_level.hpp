@@ -34,10 +34,16 @@ struct Smoothing {
 /// along one direction here and along another there, as in cells stretched towards a wall, error
 /// that varies along the weak one is left to the smoother: it must reach further down.
 Smoothing smoothing_for(const Mesh& finest);
+/// The one that reaches furthest.
+Smoothing far_reaching_smoothing();
 
 /// What one block holds on one level of the multigrid solver.
 struct LevelBlock {
-  LevelBlock(Index3 cells, int outer);
+  enum class Holds {
+    equation,
+    transfer ///< right-hand side and x alone
+  };
+  LevelBlock(Index3 cells, int outer, Holds what = Holds::equation);
 
   LevelLayout layout;
   std::array<FloatField, 3> coefficient; ///< of low faces; 0 where a direction couples nothing
@@ -63,9 +69,14 @@ struct LinkFactor {
   float factor;
 };
 
+/// Cells of all blocks.
+long cells_of_all_ranks(const Mesh& mesh);
+
 struct Level {
   Level(const Mesh& finest, const Smoothing& how);
   Level(const Mesh& m, const Level& finer);
+  /// What stands in for a coarser level where residual and correction are wanted cell by cell.
+  static Level cell_by_cell(const Level& level);
 
   const Mesh& mesh;
   bool linked; ///< whether cells of any rank have neighbours in other blocks, or across a period
@@ -73,10 +84,10 @@ struct Level {
   std::vector<LevelBlock> blocks; ///< as Mesh::local
   const Smoothing& smoothing;
 
-  // Towards the next coarser level.
-  Pairings pairings; ///< of all blocks
+  // From the next finer level.
+  Pairings pairings; ///< of all its blocks
   std::vector<LinkFactor> link_factors;
-  int visits = 1; ///< cycles of the next level in one of this
+  int visits = 1; ///< cycles of this level in one of that
 
   /// Fills the ghosts of a field behind links; nothing to do where nothing is linked.
   void exchange(FloatField LevelBlock::*field);
@@ -86,6 +97,12 @@ private:
 
   std::vector<float*> exchanged_; ///< kept, so that nothing is allocated in a loop
 };
+
+/// Share of the coefficient that is left when the distance between cells that were one apart has
+/// grown to the mean of the coarse cells' widths.
+constexpr double over_distance(int width_below, int width_above) {
+  return 2.0 / (width_below + width_above);
+}
 
 /// Factors for the faces of the links of `coarse`.
 std::vector<LinkFactor> link_factors(const Mesh& fine, const Mesh& coarse,

@@ -326,12 +326,12 @@ void sweep_block(const Level& level, LevelBlock& b, const std::array<Pairing, 3>
   std::swap(b.x, b.spare);
 }
 
-/// body(sweep, block, plane) for all planes of all blocks of a level, dealt to the threads.
-template <class Body> void for_planes(Level& level, Body&& body) {
+/// body(sweep, block, plane) for all planes of all blocks of a level, dealt to the threads;
+/// pairings where cells join.
+template <class Body> void for_planes(Level& level, const Pairings* pairings, Body&& body) {
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
-    const Pairings& pairings = level.pairings;
-    const Sweep s(level, block, pairings.empty() ? nullptr : &pairings[u(level.mesh.local[b].id)]);
+    const Sweep s(level, block, pairings ? &(*pairings)[u(level.mesh.local[b].id)] : nullptr);
 #pragma omp parallel for schedule(static) if (block.layout.interior() >= smallest_parallel_sweep)
     for (int k = 0; k < s.n_outer; ++k)
       body(s, b, k);
@@ -341,14 +341,14 @@ template <class Body> void for_planes(Level& level, Body&& body) {
 /// Step by step, for levels with links.
 void smooth_by_steps(Level& level, Start start) {
   if (start == Start::zero) {
-    for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
+    for_planes(level, nullptr, [&](const Sweep& s, std::size_t b, int k) {
       first_plane(s, k, s.plane(level.blocks[b].x.data(), k));
     });
   }
   for (int n = start == Start::zero ? 2 : 1; n <= level.smoothing.count(); ++n) {
     level.exchange(&LevelBlock::x);
     const bool has_before = n > (start == Start::zero ? 2 : 1);
-    for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
+    for_planes(level, nullptr, [&](const Sweep& s, std::size_t b, int k) {
       LevelBlock& block = level.blocks[b];
       const auto x = [&](int plane) { return as_const(s.plane(block.x.data(), plane)); };
       const Plane<float> next = s.plane(block.spare.data(), k);
@@ -377,8 +377,8 @@ void smooth(Level& level) {
 void smooth_and_restrict(Level& level, Level& coarse, Start start) {
   if (!level.linked) {
     for (std::size_t b = 0; b < level.blocks.size(); ++b)
-      sweep_block(level, level.blocks[b], level.pairings[u(level.mesh.local[b].id)], start, nullptr,
-                  &coarse.blocks[b]);
+      sweep_block(level, level.blocks[b], coarse.pairings[u(level.mesh.local[b].id)], start,
+                  nullptr, &coarse.blocks[b]);
     return;
   }
   smooth_by_steps(level, start);
@@ -386,7 +386,7 @@ void smooth_and_restrict(Level& level, Level& coarse, Start start) {
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
     make_room(block);
-    const Sweep s(level, block, &level.pairings[u(level.mesh.local[b].id)]);
+    const Sweep s(level, block, &coarse.pairings[u(level.mesh.local[b].id)]);
     const int N = s.outer.coarse(s.n_outer - 1) + 1;
 #pragma omp parallel if (block.layout.interior() >= smallest_parallel_sweep)
     {
@@ -404,11 +404,11 @@ void smooth_and_restrict(Level& level, Level& coarse, Start start) {
 void correct_and_smooth(const Level& coarse, Level& level) {
   if (!level.linked) {
     for (std::size_t b = 0; b < level.blocks.size(); ++b)
-      sweep_block(level, level.blocks[b], level.pairings[u(level.mesh.local[b].id)],
+      sweep_block(level, level.blocks[b], coarse.pairings[u(level.mesh.local[b].id)],
                   Start::corrected, &coarse.blocks[b], nullptr);
     return;
   }
-  for_planes(level, [&](const Sweep& s, std::size_t b, int k) {
+  for_planes(level, &coarse.pairings, [&](const Sweep& s, std::size_t b, int k) {
     correct_plane(s, coarse.blocks[b], k, s.plane(level.blocks[b].x.data(), k));
   });
   smooth_by_steps(level, Start::corrected);

@@ -51,7 +51,7 @@ void report(PressureMethod method, const char* name, int n, const Medium& medium
   }
   const double solve = least(same), with_setup = least(changed);
   const double triad_rate = granflux::bench::triad();
-  std::printf("%-10s %4d  %3d iterations %8.2f ms  %6.2f ns a cell and iteration = %4.0f bytes of "
+  std::printf("%-12s %4d  %3d iterations %8.2f ms  %6.2f ns a cell and iteration = %4.0f bytes of "
               "the triad's %.1f GB/s; new coefficients %6.2f ns a cell\n",
               name, n, done.iterations, 1e3 * with_setup, 1e9 * solve / cells / done.iterations,
               solve / cells / done.iterations * triad_rate * 1e9, triad_rate,
@@ -75,6 +75,10 @@ int main(int argc, char** argv) {
   for (const int n : sizes) {
     report(method, "uniform", n, uniform_medium, false);
     report(method, "bed 1e6", n, bed_medium(1e6, n), true);
+    report(method, "bubbles 1e6", n, ball_medium(1e6, n), true);
+    report(method, "touching 1e6", n, touching_medium(1e6, n), true);
+    report(method, "binary 1e6", n, binary_medium(1e6), true);
+    report(method, "random 1e6", n, random_medium(1e6), true);
   }
   MPI_Finalize();
 }

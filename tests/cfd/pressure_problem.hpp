@@ -263,4 +263,26 @@ inline Medium ball_medium(double inside, int n) {
   };
 }
 
+/// Twenty balls at random places, `inside` times as conductive as what is around them: some
+/// overlap, some only nearly touch, by an edge or a corner of cells or across a few.
+inline Medium touching_medium(double inside, int n) {
+  return [inside, n](const Index3& c) {
+    for (int ball = 0; ball < 20; ++ball) {
+      double squares = 0;
+      for (int d = 0; d < 3; ++d) {
+        const double from = (c[std::size_t(d)] + 0.5) / n - random_of({ball, d, 0}, 3);
+        squares += from * from;
+      }
+      if (squares < 0.13 * 0.13)
+        return inside;
+    }
+    return 1.0;
+  };
+}
+
+/// Every cell 1 or `jump`, either as likely.
+inline Medium binary_medium(double jump) {
+  return [jump](const Index3& c) { return random_of(c, 11) < 0.5 ? 1 : jump; };
+}
+
 } // namespace granflux::cfd::testing

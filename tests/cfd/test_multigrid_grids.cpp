@@ -150,6 +150,31 @@ TEST(MultigridGrids, FiveBlockCylinder) {
   }
 }
 
+TEST(MultigridGrids, FiveBlockCylinderWithBubblesThatTouch) {
+  const auto bubbles = [](const Vec3& x) {
+    for (int ball = 0; ball < 40; ++ball) {
+      const auto place = [&](int d) { return random_of({ball, d, 0}, 3); };
+      const double dx = x.x - 0.2 * (place(0) - 0.5), dy = x.y - 0.2 * (place(1) - 0.5),
+                   dz = x.z - 0.3 * place(2);
+      if (dx * dx + dy * dy + dz * dz < 0.025 * 0.025)
+        return 1e6;
+    }
+    return 1.0;
+  };
+  const auto white_noise = [](const Vec3& x) {
+    const auto index = [](double coordinate) { return int(std::floor(1e6 * coordinate)); };
+    return random_of({index(x.x), index(x.y), index(x.z)}, 11) < 0.5 ? 1.0 : 1e6;
+  };
+  for (const double growth : {1.0, 0.8})
+    for (const int core : {8, 16}) {
+      const Mesh mesh = cylinder(core, growth);
+      for (const char* open : {"", "high", "wall"}) {
+        EXPECT_LT(iterations(mesh, bubbles, open), 25) << core << growth << open;
+        EXPECT_LT(iterations(mesh, white_noise, open), 25) << core << growth << open;
+      }
+    }
+}
+
 TEST(MultigridGrids, AgreeWithTheDirectSolver) {
   for (const Mesh& mesh : {annulus(24, 32, 1.2, 4), cylinder(6, 0.9)}) {
     const PressureSystem system = system_on(mesh, uniform, "");
