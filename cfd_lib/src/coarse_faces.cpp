@@ -117,7 +117,7 @@ std::vector<LinkFactor> link_factors(const Mesh& fine, const Mesh& coarse,
       IndexBox faces = patch.cells;
       if (patch.side.high)
         ++faces.lo[u(d)], ++faces.hi[u(d)];
-      factors.push_back({b, d, faces, float(own * over_distance(own, beyond))});
+      factors.push_back({b, d, faces, float(own * over_distance(own, beyond)), across});
     }
   }
   return factors;

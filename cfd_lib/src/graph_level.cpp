@@ -152,16 +152,22 @@ bool has_weak_coupling(const LevelBlock& b, const std::array<Pairing, 3>& pairin
   return weak > 0;
 }
 
-/// What is left of a coupling over each side of a coarse cell when the distance has grown.
-std::array<float, 6> shares_by_distance(const Level& fine, const Level& coarse, std::size_t block,
-                                        const Index3& cell) {
+/// A side of a coarse cell.
+struct CellSide {
+  float share;          ///< of a coupling that is left when the distance has grown
+  int direction_beyond; ///< of the cell beyond, in its block
+};
+
+std::array<CellSide, 6> sides_of(const Level& fine, const Level& coarse, std::size_t block,
+                                 const Index3& cell) {
   const auto& pairing = coarse.pairings[u(coarse.mesh.local[block].id)];
   const Index3 &n = fine.blocks[block].layout.cells, &N = coarse.blocks[block].layout.cells;
-  std::array<float, 6> shares{};
+  std::array<CellSide, 6> sides{};
   for (int side = 0; side < 6; ++side) {
     const int d = side / 2, high = side % 2, next = cell[u(d)] + (high ? 1 : -1);
     const int width = pairing[u(d)].width(cell[u(d)], n[u(d)]);
     double share = 0;
+    int beyond = d;
     if (next >= 0 && next < N[u(d)])
       share = over_distance(width, pairing[u(d)].width(next, n[u(d)]));
     else {
@@ -170,11 +176,11 @@ std::array<float, 6> shares_by_distance(const Level& fine, const Level& coarse, 
       face[u(d)] += high;
       for (const LinkFactor& link : coarse.link_factors)
         if (link.block == block && link.direction == d && link.faces.contains(face))
-          share *= double(link.factor);
+          share *= double(link.factor), beyond = link.direction_beyond;
     }
-    shares[u(side)] = float(share);
+    sides[u(side)] = {float(share), beyond};
   }
-  return shares;
+  return sides;
 }
 
 /// The cells of a structured level, by their positions in its fields, block after block.
@@ -444,15 +450,16 @@ template <class Source> void GraphLevel::join(const Source& source, double least
 #pragma omp parallel for schedule(static) if (parallel)
   for (int c = 0; c < cells; ++c) {
     const auto [b, cell] = line.at(c);
-    const std::array<float, 6> shares = shares_by_distance(source.fine, place, b, cell);
+    const std::array<CellSide, 6> sides = sides_of(source.fine, place, b, cell);
     for (int node = first_of_cell[u(c)]; node < first_of_cell[u(c) + 1]; ++node) {
       double diagonal = 0;
       for (int e = row[u(node)]; e < row[u(node) + 1]; ++e) {
         float& k = coupling[u(e)];
         if (side[u(e)] < within) {
-          const std::vector<float>& along = resistance[side[u(e)] / 2U];
-          const float way = along[u(node)] + along[u(neighbour[u(e)])];
-          k *= std::max(shares[side[u(e)]], 1 / (1 + 0.5F * k * way));
+          const auto& [share, beyond] = sides[side[u(e)]];
+          const float way =
+              resistance[side[u(e)] / 2U][u(node)] + resistance[u(beyond)][u(neighbour[u(e)])];
+          k *= std::max(share, 1 / (1 + 0.5F * k * way));
         }
         diagonal += double(k);
       }

@@ -67,6 +67,7 @@ struct LinkFactor {
   int direction;
   IndexBox faces;
   float factor;
+  int direction_beyond; ///< that of the cells beyond
 };
 
 /// Cells of all blocks.
