@@ -71,13 +71,13 @@ def draw_bed(results):
     colours = plt.get_cmap("coolwarm")(plt.Normalize(-most, most)(shown))
     colours[..., :3] *= (0.45 + 0.55 * np.nan_to_num(bright))[..., None]
     colours[np.isnan(shown)] = 1
-    figure, axis = plt.subplots(figsize=(11, 11 * shown.shape[0] / shown.shape[1] + 1), layout="constrained")
+    figure, axis = plt.subplots(figsize=(11, 11 * shown.shape[0] / shown.shape[1] + 1))
     axis.imshow(colours, origin="lower", interpolation="antialiased")
     axis.set_axis_off()
     axis.set_title(f"{len(data)} particles after {last_time(results):.3f} s")
     scale = plt.cm.ScalarMappable(plt.Normalize(-most, most), "coolwarm")
-    figure.colorbar(scale, ax=axis, location="bottom", shrink=0.4, aspect=40, label="vertical velocity, m/s")
-    figure.savefig(results / "picture.png", dpi=130)
+    figure.colorbar(scale, ax=axis, location="bottom", shrink=0.4, aspect=40, pad=0.02, label="vertical velocity, m/s")
+    figure.savefig(results / "picture.png", dpi=90, bbox_inches="tight")
 
 
 def last_time(results):

@@ -30,6 +30,8 @@ public:
   template <class T> void sample(std::span<const T> field, std::span<T> value) const;
 
 private:
+  /// Particles of one cell lie apart in memory: what is known to be needed soon is fetched ahead.
+  static constexpr std::size_t ahead = 24;
   using Eight = std::array<double, 8>;
   [[nodiscard]] static Eight weights(const Vec3& upper) {
     const Vec3 lower{1 - upper.x, 1 - upper.y, 1 - upper.z};
@@ -86,6 +88,8 @@ void CornerShares::deposit_row(std::size_t begin, std::size_t end, const double*
       continue;
     double sum[numbers][8] = {};
     for (std::size_t s = first; s < last; ++s) {
+      if (s + ahead < particle_.size())
+        __builtin_prefetch(value + numbers * particle_[s + ahead]);
       const Eight share = weights(upper_[s]);
       const double* const q = value + numbers * particle_[s];
       for (std::size_t v = 0; v < numbers; ++v)
@@ -107,6 +111,8 @@ template <class T> void CornerShares::sample(std::span<const T> field, std::span
     std::fill(value.begin(), value.end(), T{});
 #pragma omp parallel for schedule(static)
   for (std::size_t s = 0; s < particle_.size(); ++s) {
+    if (s + ahead < particle_.size())
+      __builtin_prefetch(to + numbers * particle_[s + ahead], 1);
     const Eight share = weights(upper_[s]);
     std::array<double, numbers> sum{};
     for (std::size_t c = 0; c < 8; ++c) {
