@@ -147,6 +147,12 @@ void Verlet::setup() {
 }
 
 void Verlet::sort_particles() {
+  // Where contacts are LIGGGHTS' own they are added up in its order: the same bits.
+  const auto* own = dynamic_cast<const PairGran*>(force->pair);
+  if (!own || !own->holds_history()) {
+    atom->sort();
+    return;
+  }
   order_.sort(*atom, 0.5 * neighbor->cutneighmax);
   atom->nextsort = (update->ntimestep / atom->sortfreq + 1) * atom->sortfreq;
 }
