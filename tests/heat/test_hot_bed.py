@@ -5,7 +5,6 @@
 import pathlib
 import re
 import subprocess
-import sys
 import unittest
 
 from host import HostTest
@@ -19,7 +18,7 @@ class HotBed(HostTest):
             self.write(name, (EXAMPLE / name).read_text())
         self.run_script(self.read("in.hot_bed"), options=("-var", "time", "0.02"))
         drawn = subprocess.run(
-            [sys.executable, EXAMPLE / "plot.py", self.folder], capture_output=True, text=True, check=False
+            [EXAMPLE / "plot.py", self.folder], capture_output=True, text=True, check=False
         )
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         number = r"([\d.]+(?:e[-+]\d+)?)"
