@@ -4,6 +4,7 @@
 // LIGGGHTS with the styles of GranFlux: takes every option of `liggghts` and the same scripts.
 
 #include <csignal>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -81,6 +82,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   install_signal_handlers();
+  // An error of one rank ends the program without flushing: its message must be out line by line.
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   MPI_Init(&argc, &argv);
   try {
     granflux::liggghts::take_launch_options(argc, argv);

@@ -2,10 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The GranFlux developers
 # SPDX-License-Identifier: BSD-3-Clause
 # The program granflux_cfd as a user meets it. Usage: granflux_cfd_test.sh PROGRAM [MPIRUN...]
+# Without mpirun one rank, and without the daemon that Open MPI starts for it.
 set -euo pipefail
 
 program=$1
 shift
+(($#)) || export OMPI_MCA_ess_singleton_isolated=1
+# An error is out before the first rank ends: mpirun need not wait two seconds for the others.
+export OMPI_MCA_odls_base_sigkill_timeout=0
 launch=("$@")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

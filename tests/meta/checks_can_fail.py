@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Each check finds the fault it is for, in a small tree made for it, and none in a clean one.
 
-Usage: checks_can_fail.py CLANG_FORMAT
+Usage: checks_can_fail.py CLANG_FORMAT COMPILER
 """
 
 import shutil
@@ -12,11 +12,12 @@ import unittest
 from pathlib import Path
 
 import format as format_check
+import headers_alone
 import layering
 import licences
 import registered
 
-CLANG_FORMAT = sys.argv.pop(1)
+CLANG_FORMAT, COMPILER = sys.argv.pop(1), sys.argv.pop(1)
 HEAD = "// SPDX-FileCopyrightText: 2026 The GranFlux developers\n// SPDX-License-Identifier: {}\n"
 BSD = HEAD.format("BSD-3-Clause")
 GPL = HEAD.format("GPL-2.0-or-later")
@@ -31,8 +32,9 @@ class Checks(unittest.TestCase):
         self.write("cfd_lib/CMakeLists.txt", BSD + "add_library(a src/a.cpp include/a.hpp)\n")
         self.write("cfd_lib/src/a.cpp", BSD + "#include <granflux/cfd/a.hpp>\n")
         self.write("cfd_lib/include/a.hpp", BSD + "int a();\n")
-        self.write("coupling/CMakeLists.txt", BSD + "add_library(b src/b.cpp)\n")
         self.write("coupling/src/b.cpp", BSD + "#include <granflux/cfd/a.hpp>\n")
+        self.write("coupling/include/granflux/b.hpp", BSD + "int b();\n")
+        self.write("coupling/CMakeLists.txt", BSD + "add_library(b src/b.cpp include/granflux/b.hpp)\n")
 
     def tearDown(self):
         shutil.rmtree(self.root)
@@ -51,6 +53,7 @@ class Checks(unittest.TestCase):
         self.assertEqual(layering.faults_of(self.root), [])
         self.assertEqual(licences.faults_of(self.root), [])
         self.assertEqual(registered.faults_of(self.root), [])
+        self.assertEqual(headers_alone.faults_of(self.root, COMPILER, []), [])
         self.assertEqual(format_check.faults_of(self.root, CLANG_FORMAT), [])
 
     def test_an_arrow_the_wrong_way(self):
@@ -98,6 +101,12 @@ class Checks(unittest.TestCase):
     def test_a_public_header_outside_the_file_set(self):
         self.write("cfd_lib/include/z.hpp", BSD)
         self.assert_one_fault(registered.faults_of(self.root), "cfd_lib/include/z.hpp")
+
+    def test_a_header_that_leans_on_another(self):
+        self.write("coupling/include/granflux/b.hpp", BSD + "std::string b();\n")
+        self.assert_one_fault(headers_alone.faults_of(self.root, COMPILER, []), "granflux/b.hpp")
+        self.write("coupling/src/b.cpp", BSD + "#include <granflux/b.hpp>\n")  # the build will tell
+        self.assertEqual(headers_alone.faults_of(self.root, COMPILER, []), [])
 
     def test_a_script_that_cannot_be_run(self):
         (self.root / "run").chmod(0o644)

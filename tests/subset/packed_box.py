@@ -80,6 +80,7 @@ def data_file(cells, spacing, speed, spin, periodic_gap, seed=20, types=2):
 
 
 def script(name, model, boundary="p p p", grid="* * *", step=2e-6, more="", sort="", fixed=1, kn="1e3", runs=(1, 99)):
+    """A dump of each step of the first run, of every 25th of later ones."""
     head = HEAD.format(
         name=name,
         model=model,
@@ -92,7 +93,7 @@ def script(name, model, boundary="p p p", grid="* * *", step=2e-6, more="", sort
         kn=kn,
         numbers=" %.17g" * 15,
     )
-    return head + "".join(f"run {steps}\n" for steps in runs)
+    return head + "dump_modify d every 25\n".join(f"run {steps}\n" for steps in runs)
 
 
 def snapshots(text):

@@ -115,8 +115,11 @@ class BesideStock(HostTest):
             outputs[ranks, threads] = (stock[ranks][0], output)
             for name, reference, tolerance in zip(("first.txt", "later.txt"), stock[ranks][1:],
                                                   (first, later)):
-                pairs = list(zip(snapshots(reference), snapshots(self.read(name)), strict=True))
-                self.assertGreater(len(pairs), 0)
+                self.assertIn("ITEM: ATOMS", reference)
+                text = self.read(name)
+                if text == reference:
+                    continue
+                pairs = zip(snapshots(reference), snapshots(text), strict=True)
                 for expected, found in pairs:
                     differences = vector_differences(expected, found)
                     self.assertLessEqual(max(differences), tolerance,
