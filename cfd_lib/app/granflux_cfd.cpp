@@ -29,6 +29,7 @@
 
 #include "force_history.hpp"
 #include "progress.hpp"
+#include "stable_steps.hpp"
 #include "time_steps.hpp"
 
 namespace {
@@ -217,17 +218,31 @@ public:
   explicit Checkpoints(const Output& output)
       : path_(output.checkpoint), every_(output.checkpoint_every) {}
   void start(double time) { next_ = time + every_; }
-  void write_if_due(const GasSolver& gas, bool at_end, const TimeSteps& steps, long files) {
-    if (path_.empty() || !(at_end || (every_ > 0 && gas.time() >= next_ * (1 - 1e-12))))
+  /// `believable`: else the older state is worth more.
+  void write_if_due(const GasSolver& gas, bool at_end, const TimeSteps& steps, long files,
+                    bool believable) {
+    if (path_.empty() || !believable ||
+        !(at_end || (every_ > 0 && gas.time() >= next_ * (1 - 1e-12))))
       return;
     write_checkpoint(path_, gas, {steps.last(), double(files)});
+    written_at_ = gas.time();
     while (every_ > 0 && next_ <= gas.time())
       next_ += every_;
+  }
+
+  /// Where a run that stopped can be taken up again.
+  [[nodiscard]] std::string last_good_state() const {
+    if (written_at_)
+      return fmt::format("last good state: checkpoint {} of t = {:.6g} s", path_, *written_at_);
+    if (path_.empty())
+      return "no state was kept: [output] checkpoint names a file for it";
+    return "no state was kept yet: [output] checkpoint_every says when";
   }
 
 private:
   std::string path_;
   double every_, next_ = 0;
+  std::optional<double> written_at_; ///< simulated time [s]
 };
 
 void run(const Options& options, MPI_Comm comm, bool prints) {
@@ -270,20 +285,37 @@ void run(const Options& options, MPI_Comm comm, bool prints) {
   checkpoints.start(gas->time());
 
   const long first = gas->steps();
+  StableSteps stable(gas_case, *gas, TimeSteps(steps).next(gas->time(), gas->courant_rate()));
+  if (prints)
+    fmt::print("{}\n", stable.table());
+  const auto warn = [&] {
+    for (const std::string& warning : stable.new_warnings())
+      if (prints)
+        fmt::print("warning: t = {:.6g} s: {}\n", gas->time(), warning);
+  };
+  warn();
   Progress progress(gas->time(), gas_case.numerics.end_time, prints);
   for (bool done = false; !done;) {
     const double rate = gas_case.numerics.courant > 0 ? gas->courant_rate() : 0;
+    const double dt = steps.next(gas->time(), rate);
     const StepReport report = timed(seconds.gas, [&] {
-      return gas->advance(steps.next(gas->time(), rate), void_fraction, nullptr);
+      try {
+        return gas->advance(dt, void_fraction, nullptr);
+      } catch (const NumericalError& error) { // on all ranks alike
+        throw NumericalError(fmt::format("{}; {}; {}", error.what(), stable.likely_cause(),
+                                         checkpoints.last_good_state()));
+      }
     });
+    stable.follow(report, dt);
     done = steps.at_end(gas->time());
     const bool stopped = !done && stop_asked(comm);
     timed(seconds.output, [&] {
       output.write_if_due(*gas, done);
       forces.add(*gas);
-      checkpoints.write_if_due(*gas, done || stopped, steps, output.files());
+      checkpoints.write_if_due(*gas, done || stopped, steps, output.files(), stable.believable());
     });
     progress.report(gas->steps(), gas->time(), report);
+    warn();
     if (stopped) {
       if (prints)
         fmt::print("\nstopped by a signal at t = {:.6g} s\n", gas->time());

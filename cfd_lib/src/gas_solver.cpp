@@ -60,41 +60,6 @@ GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     energy = std::make_unique<EnergyEquation>(m, halo, boundaries, fluid, *c.energy, numerics);
 }
 
-std::string GasSolver::Impl::cell_name(std::int64_t encoded) const {
-  const std::int64_t block = encoded >> 40, n = encoded & ((std::int64_t(1) << 40) - 1);
-  const Index3 cells = mesh.blocks[std::size_t(block)].cells;
-  return "cell (" + std::to_string(n % cells[0]) + ", " + std::to_string(n / cells[0] % cells[1]) +
-         ", " + std::to_string(n / (std::int64_t(cells[0]) * cells[1])) + ") of block " +
-         std::to_string(block);
-}
-
-/// Throws on all ranks, naming the first bad cell, if any velocity or coefficient is not a number.
-void GasSolver::Impl::check_finite() const {
-  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
-  std::int64_t first = none;
-  for (std::size_t b = 0; b < mesh.local.size() && first == none; ++b) {
-    const Layout& layout = mesh.local[b].layout;
-    std::int64_t n = 0;
-    for (int k = 0; k < layout.cells[2]; ++k)
-      for (int j = 0; j < layout.cells[1]; ++j)
-        for (int i = 0; i < layout.cells[0]; ++i, ++n) {
-          const std::ptrdiff_t c = layout.at(i, j, k);
-          double probe = a[b][c] + share[b][c] + eps[b][c];
-          for (std::size_t m = 0; m < 3; ++m)
-            probe += u[b][m][c] + r[b][m][c];
-          if (first == none && !std::isfinite(probe))
-            first = (std::int64_t(mesh.local[b].id) << 40) + n;
-        }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT64_T, MPI_MIN, mesh.comm);
-  if (first != none)
-    throw NumericalError("gas: step " + std::to_string(steps + 1) + ", time " +
-                         std::to_string(time) + " s: velocity or drag is not a number in " +
-                         cell_name(first) +
-                         "; likely causes: too large a time step (Courant number above 1), or a "
-                         "particle state that is not a number");
-}
-
 /// Everything that the next step depends on.
 template <class Visit> void GasSolver::Impl::visit_state(Visit&& visit) {
   double counters[] = {time,          dt_old,        double(steps),   double(has_history),
@@ -163,47 +128,56 @@ void GasSolver::initialise(const BlockFields& void_fraction, const BlockVectors&
 
 StepReport GasSolver::advance(double dt, const BlockFields& void_fraction,
                               const MomentumExchange* exchange, const HeatExchange* heat) {
-  Impl& s = *impl_;
   if (!(dt > 0))
     throw ConfigError("gas: time step " + std::to_string(dt) + " s: must be > 0");
-  if (heat && !s.energy)
+  if (heat && !impl_->energy)
     throw ConfigError("gas: heat is exchanged, but the case has no [energy] table");
+  try {
+    return impl_->advance(dt, void_fraction, exchange, heat);
+  } catch (const NumericalError&) { // on all ranks alike
+    impl_->check_finite();          // a cell tells more than a solver that cannot go on
+    throw;
+  }
+}
+
+StepReport GasSolver::Impl::advance(double dt, const BlockFields& void_fraction,
+                                    const MomentumExchange* exchange, const HeatExchange* heat) {
   StepReport report;
-  const double new_time = s.time + dt;
-  const double ratio = s.has_history ? dt / s.dt_old : 0;
-  s.ab_now = s.implicit ? 0.5 : 1 + 0.5 * ratio;
-  s.ab_old = s.implicit ? 0 : -0.5 * ratio;
+  const double new_time = time + dt;
+  const double ratio = has_history ? dt / dt_old : 0;
+  ab_now = implicit ? 0.5 : 1 + 0.5 * ratio;
+  ab_old = implicit ? 0 : -0.5 * ratio;
 
-  s.update_velocity_gradient();
-  if (!s.implicit) {
-    std::swap(s.convection, s.convection_old);
-    s.outflow_old = s.outflow;
+  update_velocity_gradient();
+  if (!implicit) {
+    std::swap(convection, convection_old);
+    outflow_old = outflow;
   }
-  if (s.energy)
-    s.energy->begin(s.eps);
-  report.history_restarted = s.move_void_fraction(dt, void_fraction);
-  s.set_conductance();
-  s.set_medium(dt, exchange);
-  s.begin_momentum(dt, exchange);
-  if (s.implicit) {
-    s.iterate_implicit(new_time, exchange, report);
+  if (energy)
+    energy->begin(eps);
+  report.history_restarted = move_void_fraction(dt, void_fraction);
+  set_conductance();
+  set_medium(dt, exchange);
+  begin_momentum(dt, exchange);
+  if (implicit) {
+    iterate_implicit(new_time, exchange, report);
   } else {
-    s.predict(new_time, report);
-    s.add_new_friction(new_time);
-    s.project(new_time, Drive::given, exchange, report);
+    predict(new_time, report);
+    add_new_friction(new_time);
+    project(new_time, Drive::given, exchange, report);
   }
-  s.take_balance(dt, exchange);
-  if (!std::isfinite(norm(s.balance.momentum_residual)))
-    s.check_finite(); // names the cell and throws
-  if (s.energy)
-    s.energy->advance(dt, ratio, s.flux, s.eps, s.eps_middle, s.eddy_viscosity, heat, s.face_work,
-                      s.balance);
+  take_balance(dt, exchange);
+  if (!std::isfinite(norm(balance.momentum_residual)))
+    check_finite(); // names the cell and throws
+  if (energy)
+    energy->advance(dt, ratio, flux, eps, eps_middle, eddy_viscosity, heat, face_work, balance);
 
-  s.measure(dt, report);
-  s.time = new_time;
-  s.dt_old = dt;
-  s.has_history = true;
-  ++s.steps;
+  measure(dt, report);
+  check_courant(dt, report.courant);
+  time = new_time;
+  dt_old = dt;
+  has_history = true;
+  ++steps;
   return report;
 }
 
@@ -327,6 +301,22 @@ Vec3 GasSolver::boundary_force(const std::string& boundary) const {
         return std::array<double, 3>{force.x, force.y, force.z};
       });
   return {x, y, z};
+}
+
+double GasSolver::friction_rate() const {
+  const Impl& s = *impl_;
+  double largest = 0;
+  for (const Block& block : s.mesh.local) {
+    const auto [si, sj, sk] = block.layout.stride;
+    const auto& [i, j, k] = block.conductance;
+    largest = max_cells(block.layout, largest,
+                        [&, si = si, sj = sj, sk = sk, &i = i, &j = j, &k = k](std::ptrdiff_t c) {
+                          return 0.5 * (i[c] + i[c + si] + j[c] + j[c + sj] + k[c] + k[c + sk]) /
+                                 block.volume[c];
+                        });
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, s.mesh.comm);
+  return s.fluid.viscosity / s.fluid.density * largest;
 }
 
 double GasSolver::courant_rate() const {

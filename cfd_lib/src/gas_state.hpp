@@ -48,6 +48,9 @@ struct ImplicitMomentum {
 struct GasSolver::Impl {
   Impl(const Mesh& mesh, const GasCase& gas_case);
 
+  StepReport advance(double dt, const BlockFields& void_fraction, const MomentumExchange* exchange,
+                     const HeatExchange* heat);
+
   // The step, in order.
   void update_velocity_gradient();
   bool move_void_fraction(double dt, const BlockFields& void_fraction);
@@ -76,14 +79,17 @@ struct GasSolver::Impl {
   void set_drag_slope(const MomentumExchange& exchange);
   void set_pressure_gradient(Drive drive, After after);
   void set_velocity(std::size_t b, std::ptrdiff_t row);
-  void check_finite() const;
   void take_balance(double dt, const MomentumExchange* exchange);
 
   /// Whether the void fraction has not moved for so long that nothing that follows from it does.
   [[nodiscard]] bool resting() const { return steps_at_rest > 3; }
   [[nodiscard]] Vec3 momentum();
-  [[nodiscard]] std::string cell_name(std::int64_t encoded) const;
   void measure(double dt, StepReport& report) const;
+
+  // What ends a run: throw NumericalError on all ranks, with step and cell.
+  void check_finite() const;
+  void check_courant(double dt, double courant) const;
+  [[nodiscard]] std::string place(std::size_t b, const Index3& cell) const;
 
   template <class Visit> void visit_state(Visit&& visit);
 

@@ -62,6 +62,20 @@ TOML
 
 expect 0 "4 steps of 0.00025 s to t = 0.001 s" good.toml
 expect 0 "3 files, the last gas_000002.cgns" good.toml --threads 2
+# The stable range: 0.5 m/s by steps of 0.25 ms over cells of 2.5 mm.
+expect 0 "gas Courant number                               0.05        0.5  OK      [numerics] time_step 0.00025" good.toml
+sed 's/0.0, 0.0, 0.5/0.0, 0.0, 9/' good.toml >quick.toml
+expect 0 "warning: t = 0 s: gas Courant number is 0.9, its limit 0.5: [numerics] time_step 0.000139 or less, or courant = 0.4" quick.toml
+sed 's/0.0, 0.0, 0.5/0.0, 0.0, 900/' good.toml >absurd.toml
+expect 1 "gas: step 1, time 0 s: Courant number 90 in cell (" absurd.toml
+expect 1 "likely cause: gas Courant number is 90, its limit 0.5: [numerics] time_step 1.39e-06 or less, or courant = 0.4; no state was kept: [output] checkpoint names a file for it" absurd.toml
+# Speed that grows until the scheme fails: the checkpoint is of before.
+sed 's/0.0, 0.0, 0.5\]/0.0, 0.0, 1e4]\nramp_time = 1/; s/^end_time.*/end_time = 0.1/; s/^every.*/every = 1\ncheckpoint = "state"\ncheckpoint_every = 5e-4/' \
+  good.toml >ramp.toml
+expect 1 "last good state: checkpoint state of t = " ramp.toml
+# Taken up with the step that the message asks for.
+sed 's/1e4/0/; s/^end_time.*/end_time = 0.003/; s/^time_step.*/time_step = 4e-5/' ramp.toml >slow.toml
+expect 0 "continues at t = 0.00" slow.toml --restart state
 # 0.5 m/s through 1 cm2
 expect 0 "bottom                    -5.000000e-05" good.toml
 expect 0 "top                        5.000000e-05" good.toml

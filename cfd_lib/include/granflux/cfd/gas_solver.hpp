@@ -82,7 +82,8 @@ public:
   void initialise(const BlockFields& void_fraction, Vec3 velocity, double time = 0);
 
   /// One step of dt. `void_fraction` is that at the end of the step; `exchange` may be null for a
-  /// gas alone. Collective. Throws NumericalError.
+  /// gas alone. Collective. Throws NumericalError, with the cell where one can be named:
+  /// not-a-number, a solver that does not converge, a Courant number beyond hopeless_courant().
   StepReport advance(double dt, const BlockFields& void_fraction, const MomentumExchange* exchange,
                      const HeatExchange* heat = nullptr);
 
@@ -109,6 +110,10 @@ public:
   /// mu (grad u + transposed), with the fields as they are. Collective. Throws ConfigError for a
   /// name that the gas has no boundary of.
   [[nodiscard]] Vec3 boundary_force(const std::string& boundary) const;
+
+  /// Largest friction number nu dt sum(1/h2) per time [1/s]. Friction is implicit: the number does
+  /// not limit the step, but above 1 the shortest waves no longer fade as they should. Collective.
+  [[nodiscard]] double friction_rate() const;
 
   /// Largest Courant number per time of the flow as it is [1/s]. Collective.
   [[nodiscard]] double courant_rate() const;
