@@ -25,6 +25,7 @@ programs_run() {
   done
   says "4 steps of 0.00025 s to t = 0.001 s" "$prefix/bin/granflux_cfd" "$source/tests/install/box.toml"
   says "usage: granflux-regress" "$prefix/bin/granflux-regress" --help
+  says "usage: granflux_study" "$prefix/bin/granflux_study" --help
   [[ ! -e $build/lib/granfluxplugin.so || -n $(find "$prefix/lib" -name granfluxplugin.so) ]]
   [[ -e $prefix/share/doc/granflux/docs/reference/case_file.md ]]
   [[ -e $prefix/share/doc/granflux/examples/fluidized_bed/in.bed ]]
