@@ -27,8 +27,11 @@ void run(const char* case_file) {
   std::printf("flux out of top: %.6e m3/s\n", gas.boundary_flux("top"));
 
   const auto law = coupling::DragLaws::make("drag", "wen_yu");
-  std::printf("wen_yu F(Re 0, eps 1): %.6f\n",
-              std::visit([](const auto& f) { return f({0, 1}); }, law));
+  std::printf("wen_yu F(Re 0, eps 1): %.6f\n", std::visit(
+                                                   [](const auto& f) {
+                                                     return f({0, 1});
+                                                   },
+                                                   law));
 }
 
 } // namespace
