@@ -108,6 +108,14 @@ def extent_of(snapshot):
 
 
 def _mass(snapshot, options):
+    mass = _masses(snapshot, options)
+    if not (np.isfinite(mass) & (mass > 0)).all():
+        raise BadInput(f"step {snapshot.step}: statistics are weighted by mass, and a particle has one that is not "
+                       "a number above 0")
+    return mass
+
+
+def _masses(snapshot, options):
     if "mass" in snapshot.columns:
         return snapshot.column("mass")
     if "radius" not in snapshot.columns:

@@ -4,6 +4,7 @@
 
 import gzip
 import itertools
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -115,7 +116,8 @@ def _snapshot(lines, step, ignored, wanted):
     values = np.empty((0, len(used)))
     if count:
         try:
-            values = np.loadtxt(rows, usecols=used, ndmin=2, comments=None)
+            with warnings.catch_warnings(action="ignore"):  # empty lines are counted below
+                values = np.loadtxt(rows, usecols=used, ndmin=2, comments=None)
         except (ValueError, IndexError):
             raise BadInput(f"{lines.path}, {_first_bad_row(rows, names, used, first_row)}") from None
     if len(values) != count:
