@@ -162,6 +162,7 @@ Mesh make_box_mesh(const BoxGrid& box, MPI_Comm comm) {
       mine.hi[u(d)] = lattice.starts[u(d)][u(slab[u(d)] + 1)];
       block.cells[u(d)] = mine.hi[u(d)] - mine.lo[u(d)];
     }
+    block.place = {0, mine.lo};
     block.node = [nodes = box.nodes, lo = mine.lo](int i, int j, int k) {
       return Vec3{nodes[0][u(lo[0] + i)], nodes[1][u(lo[1] + j)], nodes[2][u(lo[2] + k)]};
     };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include <granflux/cfd/boundary.hpp>
@@ -38,11 +39,8 @@ public:
                const BlockFields& eps_middle, const BlockFields& eddy_viscosity,
                const HeatExchange* exchange, FaceFields& work, Balance& balance);
 
-  template <class Visit> void visit_state(Visit&& visit) {
-    for (BlockFields* fields : {&temperature_, &temperature_old_})
-      for (Field& field : *fields)
-        visit(field.data(), field.size());
-  }
+  /// What the next step depends on.
+  [[nodiscard]] std::array<BlockFields*, 2> state() { return {&temperature_, &temperature_old_}; }
 
 private:
   void fill_ghosts(BlockFields& temperature) const;

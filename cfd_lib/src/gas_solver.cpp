@@ -10,6 +10,8 @@
 
 #include "block_geometry.hpp"
 #include "gas_state.hpp"
+#include "state_exchange.hpp"
+#include "throw_alike.hpp"
 
 namespace granflux::cfd {
 
@@ -20,6 +22,46 @@ FaceFields make_faces(const Mesh& mesh) {
   for (const Block& block : mesh.local)
     faces.push_back({Field(block.layout), Field(block.layout), Field(block.layout)});
   return faces;
+}
+
+/// On rank 0; empty elsewhere.
+std::vector<Vec3> of_all_ranks(const Vec3& mine, MPI_Comm comm) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  std::vector<Vec3> all(rank == 0 ? std::size_t(ranks) : 0);
+  MPI_Gather(&mine, 3, MPI_DOUBLE, all.data(), 3, MPI_DOUBLE, 0, comm);
+  return all;
+}
+
+/// This rank's share of what rank 0 has of all ranks; if they were not as many, rank 0 has the sum.
+Vec3 own_of(std::vector<Vec3> all, MPI_Comm comm) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  if (rank == 0 && all.size() != std::size_t(ranks)) {
+    Vec3 sum;
+    for (const Vec3& one : all)
+      sum += one;
+    all.assign(std::size_t(ranks), {});
+    all.front() = sum;
+  }
+  Vec3 mine;
+  MPI_Scatter(all.data(), 3, MPI_DOUBLE, &mine, 3, MPI_DOUBLE, 0, comm);
+  return mine;
+}
+
+/// Cells to the last, volumes to rounding, which depends on the number of ranks.
+void check_same_grid(RecordReader& in, const std::vector<Index3>& given,
+                     const std::vector<double>& volumes) {
+  bool same = in.read() == double(given.size());
+  for (std::size_t g = 0; g < given.size() && same; ++g) {
+    for (const int n : given[g])
+      same = in.read() == double(n) && same;
+    same = std::abs(in.read() - volumes[g]) <= 1e-9 * volumes[g] && same;
+  }
+  if (!same)
+    throw ConfigError("it is of another grid");
 }
 
 } // namespace
@@ -60,30 +102,47 @@ GasSolver::Impl::Impl(const Mesh& m, const GasCase& c)
     energy = std::make_unique<EnergyEquation>(m, halo, boundaries, fluid, *c.energy, numerics);
 }
 
-/// Everything that the next step depends on.
-template <class Visit> void GasSolver::Impl::visit_state(Visit&& visit) {
-  double counters[] = {time,          dt_old,        double(steps),   double(has_history),
-                       outflow.x,     outflow.y,     outflow.z,       outflow_old.x,
-                       outflow_old.y, outflow_old.z, double(has_drag)};
-  visit(counters, std::size(counters));
-  time = counters[0], dt_old = counters[1], steps = long(counters[2]),
-  has_history = counters[3] != 0;
-  outflow = {counters[4], counters[5], counters[6]};
-  outflow_old = {counters[7], counters[8], counters[9]};
-  has_drag = counters[10] != 0;
-  for (BlockFields* fields : {&eps, &eps_middle, &eps_inertia, &eps_rate, &eps_rate_old, &p})
-    for (Field& field : *fields)
-      visit(field.data(), field.size());
-  for (BlockVectors* vectors :
-       {&u, &grad_p, &drag_slope, &convection, &convection_old, &pressure_slope})
-    for (VectorField& vector : *vectors)
-      for (Field& field : vector)
-        visit(field.data(), field.size());
-  for (auto& block : flux)
-    for (Field& field : block)
-      visit(field.data(), field.size());
+std::array<double, 5> GasSolver::Impl::state_numbers() const {
+  return {time, dt_old, double(steps), double(has_history), double(has_drag)};
+}
+
+void GasSolver::Impl::set_state_numbers(const std::array<double, 5>& numbers) {
+  time = numbers[0], dt_old = numbers[1], steps = long(numbers[2]);
+  has_history = numbers[3] != 0, has_drag = numbers[4] != 0;
+}
+
+std::vector<std::vector<Field*>> GasSolver::Impl::state_fields() {
+  std::vector<std::vector<Field*>> all;
+  const auto add = [&](auto& blocks, auto&& field_of) {
+    if (blocks.empty())
+      return; // not there in this case
+    all.emplace_back();
+    for (auto& block : blocks)
+      all.back().push_back(&field_of(block));
+  };
+  const auto itself = [](Field& field) -> Field& { return field; };
+  for (BlockFields* scalar : {&eps, &eps_middle, &eps_inertia, &eps_rate, &eps_rate_old, &p})
+    add(*scalar, itself);
+  for (std::size_t m = 0; m < 3; ++m) {
+    const auto component = [m](std::array<Field, 3>& of) -> Field& { return of[m]; };
+    for (BlockVectors* vector : {&u, &grad_p, &drag_slope, &convection, &pressure_slope})
+      add(*vector, component);
+    add(flux, component);
+  }
   if (energy)
-    energy->visit_state(visit);
+    for (BlockFields* scalar : energy->state())
+      add(*scalar, itself);
+  return all;
+}
+
+/// Of each block of the grid as given, on all ranks [m3].
+std::vector<double> GasSolver::Impl::volumes_given() const {
+  std::vector<double> volumes(mesh.given.size());
+  for (const Block& block : mesh.local)
+    volumes[std::size_t(mesh.info(block).place.block)] +=
+        sum_cells(block.layout, [&](std::ptrdiff_t c) { return block.volume[c]; });
+  MPI_Allreduce(MPI_IN_PLACE, volumes.data(), int(volumes.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return volumes;
 }
 
 GasSolver::GasSolver(const Mesh& mesh, const GasCase& gas_case)
@@ -325,32 +384,65 @@ double GasSolver::courant_rate() const {
   return report.courant;
 }
 
-std::vector<double> GasSolver::save() const {
-  std::size_t size = 0, at = 0;
-  impl_->visit_state([&](const double*, std::size_t n) { size += n; });
-  std::vector<double> state(size);
-  impl_->visit_state([&](const double* values, std::size_t n) {
-    std::copy_n(values, n, state.begin() + std::ptrdiff_t(at));
-    at += n;
-  });
-  return state;
+std::uint64_t GasSolver::saved_numbers() const {
+  const Impl& s = *impl_;
+  int ranks = 1;
+  MPI_Comm_size(s.mesh.comm, &ranks);
+  return s.state_numbers().size() + 1 + 3 * std::size_t(ranks) + 2 + 4 * s.mesh.given.size() +
+         impl_->state_fields().size() * StateExchange(s.mesh).numbers();
 }
 
-void GasSolver::load(const std::vector<double>& state) {
-  std::size_t expected = 0, at = 0;
-  impl_->visit_state([&](const double*, std::size_t n) { expected += n; });
-  int fits = expected == state.size();
-  MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, impl_->mesh.comm);
-  if (!fits)
-    throw ConfigError("gas restart: " + std::to_string(state.size()) + " values saved, " +
-                      std::to_string(expected) +
-                      " needed: continue with the same grid, blocks and number of ranks");
-  impl_->visit_state([&](double* values, std::size_t n) {
-    std::copy_n(state.begin() + std::ptrdiff_t(at), n, values);
-    at += n;
-  });
-  impl_->steps_at_rest = 0;
-  impl_->own_momentum = impl_->momentum();
+void GasSolver::save(RecordWriter* out) const {
+  const Impl& s = *impl_;
+  const std::vector<double> volumes = s.volumes_given();
+  const std::vector<Vec3> outflows = of_all_ranks(s.outflow, s.mesh.comm);
+  const std::vector<std::vector<Field*>> fields = impl_->state_fields();
+  if (out) {
+    out->write(s.state_numbers());
+    out->write(double(outflows.size()));
+    out->write({&outflows.front().x, 3 * outflows.size()});
+    out->write(double(s.mesh.given.size()));
+    for (std::size_t g = 0; g < volumes.size(); ++g) {
+      for (const int n : s.mesh.given[g])
+        out->write(double(n));
+      out->write(volumes[g]);
+    }
+    out->write(double(fields.size()));
+  }
+  const StateExchange exchange(s.mesh);
+  for (const std::vector<Field*>& field : fields)
+    exchange.gather({field.begin(), field.end()}, out);
+}
+
+void GasSolver::load(RecordReader* in) {
+  Impl& s = *impl_;
+  const std::vector<double> volumes = s.volumes_given();
+  const std::vector<std::vector<Field*>> fields = s.state_fields();
+  const StateExchange exchange(s.mesh);
+  std::array<double, 5> numbers{};
+  std::vector<Vec3> outflows;
+  std::string error;
+  if (in)
+    try {
+      in->read(numbers);
+      outflows.resize(in->read_count(in->left()));
+      for (Vec3& one : outflows)
+        one = {in->read(), in->read(), in->read()};
+      check_same_grid(*in, s.mesh.given, volumes);
+      if (in->read() != double(fields.size()) || in->left() != fields.size() * exchange.numbers())
+        throw ConfigError("it is of a case with other equations: with or without a temperature, "
+                          "on another kind of grid");
+    } catch (const ConfigError& e) {
+      error = e.what();
+    }
+  throw_alike(s.mesh.comm, error);
+  MPI_Bcast(numbers.data(), int(numbers.size()), MPI_DOUBLE, 0, s.mesh.comm);
+  s.set_state_numbers(numbers);
+  s.outflow = own_of(outflows, s.mesh.comm);
+  for (const std::vector<Field*>& field : fields)
+    exchange.scatter(in, field);
+  s.steps_at_rest = 0;
+  s.own_momentum = s.momentum();
 }
 
 } // namespace granflux::cfd

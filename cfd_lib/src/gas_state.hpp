@@ -91,7 +91,11 @@ struct GasSolver::Impl {
   void check_courant(double dt, double courant) const;
   [[nodiscard]] std::string place(std::size_t b, const Index3& cell) const;
 
-  template <class Visit> void visit_state(Visit&& visit);
+  /// Everything that the next step depends on: numbers, and fields of this rank's blocks.
+  [[nodiscard]] std::array<double, 5> state_numbers() const;
+  void set_state_numbers(const std::array<double, 5>& numbers);
+  [[nodiscard]] std::vector<std::vector<Field*>> state_fields();
+  [[nodiscard]] std::vector<double> volumes_given() const;
 
   const Mesh& mesh;
   Fluid fluid;

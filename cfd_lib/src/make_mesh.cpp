@@ -111,8 +111,15 @@ void deal(Mesh& mesh, const Grid& grid) {
   for (const GridBlock& block : grid.blocks)
     cost.push_back(cell_count(block.cells));
   const std::vector<int> rank_of = deal_blocks(cost, ranks);
-  for (std::size_t id = 0; id < grid.blocks.size(); ++id)
-    mesh.blocks.push_back({grid.blocks[id].cells, rank_of[id], grid.blocks[id].patches});
+  for (std::size_t id = 0; id < grid.blocks.size(); ++id) {
+    const GridBlock& block = grid.blocks[id];
+    const Place place = block.place.value_or(Place{.block = int(id), .low = {}});
+    mesh.blocks.push_back({block.cells, rank_of[id], block.patches, place});
+    mesh.given.resize(std::max(mesh.given.size(), u(place.block + 1)));
+    Index3& whole = mesh.given[u(place.block)];
+    for (std::size_t d = 0; d < 3; ++d)
+      whole[d] = std::max(whole[d], place.low[d] + block.cells[d]);
+  }
 }
 
 /// body(position of the ghost, resolved cell, or nothing at a boundary) for the ghosts of a patch.

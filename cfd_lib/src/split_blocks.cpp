@@ -182,6 +182,8 @@ Grid split_blocks(const Grid& grid, const Pieces& boxes) {
       out.name = out.cells == block.cells
                      ? block.name
                      : fmt::format("{} from ({}, {}, {})", block.name, lo[0], lo[1], lo[2]);
+      const Place place = block.place.value_or(Place{.block = int(b), .low = {}});
+      out.place = {place.block, {place.low[0] + lo[0], place.low[1] + lo[1], place.low[2] + lo[2]}};
       out.node = [node = block.node, lo](int i, int j, int k) {
         return node(lo[0] + i, lo[1] + j, lo[2] + k);
       };

@@ -638,23 +638,49 @@ const cfd::Mesh& Coupler::mesh() const {
   return impl_->mesh;
 }
 
-std::vector<double> Coupler::save() const {
-  std::vector<double> state = impl_->ledger.save();
-  state.insert(state.begin(), {impl_->smoothing_diameter, double(state.size())});
-  const std::vector<double> gas = impl_->gas.save();
-  state.insert(state.end(), gas.begin(), gas.end());
-  return state;
+std::uint64_t Coupler::saved_numbers() const {
+  int ranks = 1;
+  MPI_Comm_size(impl_->mesh.comm, &ranks);
+  return 2 + std::uint64_t(ranks) * Ledger::saved_numbers() + impl_->gas.saved_numbers();
 }
 
-void Coupler::load(const std::vector<double>& state) {
-  const std::size_t ledger = impl_->ledger.save().size();
-  if (state.size() < 2 + ledger || state[1] != double(ledger))
-    throw ConfigError("restart: the state of the coupling has " + std::to_string(state.size()) +
-                      " numbers and is not one of this version");
-  const auto gas = state.begin() + 2 + std::ptrdiff_t(ledger);
-  impl_->smoothing_diameter = state[0];
-  impl_->ledger.load({state.begin() + 2, gas});
-  impl_->gas.load({gas, state.end()});
+void Coupler::save(cfd::RecordWriter* out) const {
+  const MPI_Comm comm = impl_->mesh.comm;
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  const std::vector<double> mine = impl_->ledger.save();
+  std::vector<double> all(out ? mine.size() * std::size_t(ranks) : 0);
+  MPI_Gather(mine.data(), int(mine.size()), MPI_DOUBLE, all.data(), int(mine.size()), MPI_DOUBLE, 0,
+             comm);
+  if (out) {
+    out->write(impl_->smoothing_diameter);
+    out->write(double(ranks));
+    out->write(all);
+  }
+  impl_->gas.save(out);
+}
+
+void Coupler::load(cfd::RecordReader* in) {
+  const MPI_Comm comm = impl_->mesh.comm;
+  std::array<double, 2> numbers{}; // smoothing diameter, ranks
+  std::vector<double> ledgers;
+  std::string complaint;
+  if (in)
+    try {
+      numbers = {in->read(), double(in->read_count(in->left()))};
+      ledgers.resize(std::size_t(numbers[1]) * Ledger::saved_numbers());
+      in->read(ledgers);
+    } catch (const ConfigError& e) {
+      complaint = e.what();
+    }
+  throw_together<ConfigError>(comm, complaint);
+  MPI_Bcast(numbers.data(), int(numbers.size()), MPI_DOUBLE, 0, comm);
+  const auto ranks = std::size_t(numbers[1]);
+  ledgers.resize(ranks * Ledger::saved_numbers());
+  MPI_Bcast(ledgers.data(), int(ledgers.size()), MPI_DOUBLE, 0, comm);
+  impl_->smoothing_diameter = numbers[0];
+  impl_->ledger.load(ledgers, ranks);
+  impl_->gas.load(in);
   impl_->smoothing.reset();
   impl_->initialised = true;
 }

@@ -6,8 +6,6 @@
 #include <cstring>
 #include <type_traits>
 
-#include <granflux/cfd/error.hpp>
-
 namespace granflux::coupling {
 
 /// All that travels in the one reduction of an exchange.
@@ -42,28 +40,6 @@ void Ledger::add_books(void* in, void* inout, int* count, MPI_Datatype*) {
     std::memcpy(at, &a, sizeof a);
   }
 }
-
-namespace {
-
-void push(std::vector<double>& state, const CompensatedSum& s) {
-  state.push_back(s.high);
-  state.push_back(s.low);
-}
-
-void push(std::vector<double>& state, const CompensatedVec3& s) {
-  push(state, s.x), push(state, s.y), push(state, s.z);
-}
-
-const double* pull(const double* state, CompensatedSum& s) {
-  s = {state[0], state[1]};
-  return state + 2;
-}
-
-const double* pull(const double* state, CompensatedVec3& s) {
-  return pull(pull(pull(state, s.x), s.y), s.z);
-}
-
-} // namespace
 
 ExchangeSums& ExchangeSums::operator+=(const ExchangeSums& o) & {
   particles += o.particles;
@@ -175,32 +151,47 @@ void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double in
   report.budget_residual = norm(open) > 0 ? norm(open) / gas.momentum_scale : 0;
 }
 
+template <class Self, class Visit> void Ledger::for_sums(Self& self, Visit&& visit) {
+  for (auto* heat : {&self.heat_applied_, &self.heat_booked_, &self.heat_handed_over_,
+                     &self.heat_exchanged_, &self.exchanged_})
+    visit(*heat, false);
+  for (auto* impulse : {&self.applied_, &self.booked_, &self.handed_over_})
+    for (auto* component : {&impulse->x, &impulse->y, &impulse->z})
+      visit(*component, false);
+  for (auto* sum : {&self.heat_from_gas_, &self.from_gas_.x, &self.from_gas_.y, &self.from_gas_.z})
+    visit(*sum, true);
+}
+
+std::size_t Ledger::saved_numbers() {
+  constexpr std::size_t sums = 5 + 3 * 3 + 4;
+  return 2 * sums;
+}
+
 std::vector<double> Ledger::save() const {
   std::vector<double> state;
-  for (const CompensatedSum* heat :
-       {&heat_applied_, &heat_booked_, &heat_handed_over_, &heat_exchanged_, &heat_from_gas_})
-    push(state, *heat);
-  push(state, applied_);
-  push(state, booked_);
-  push(state, handed_over_);
-  push(state, exchanged_);
-  push(state, from_gas_);
+  for_sums(*this, [&](const CompensatedSum& sum, bool) {
+    state.push_back(sum.high);
+    state.push_back(sum.low);
+  });
   return state;
 }
 
-void Ledger::load(const std::vector<double>& state) {
-  if (state.size() != save().size())
-    throw ConfigError("restart: the coupling ledger has " + std::to_string(state.size()) +
-                      " numbers, expected " + std::to_string(save().size()));
-  const double* at = state.data();
-  for (CompensatedSum* heat :
-       {&heat_applied_, &heat_booked_, &heat_handed_over_, &heat_exchanged_, &heat_from_gas_})
-    at = pull(at, *heat);
-  at = pull(at, applied_);
-  at = pull(at, booked_);
-  at = pull(at, handed_over_);
-  at = pull(at, exchanged_);
-  pull(at, from_gas_);
+void Ledger::load(const std::vector<double>& all, std::size_t ranks) {
+  int rank = 0, ranks_now = 1;
+  MPI_Comm_rank(comm_, &rank);
+  MPI_Comm_size(comm_, &ranks_now);
+  const bool as_many = ranks == std::size_t(ranks_now);
+  std::size_t at = 0;
+  for_sums(*this, [&](CompensatedSum& sum, bool same_on_all) {
+    const auto of_rank = [&](std::size_t r) {
+      const double* numbers = &all[r * saved_numbers() + at];
+      return CompensatedSum{numbers[0], numbers[1]};
+    };
+    sum = as_many ? of_rank(std::size_t(rank)) : same_on_all ? of_rank(0) : CompensatedSum{};
+    for (std::size_t r = 0; r < ranks && !as_many && !same_on_all && rank == 0; ++r)
+      sum += of_rank(r);
+    at += 2;
+  });
 }
 
 } // namespace granflux::coupling

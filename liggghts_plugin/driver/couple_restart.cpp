@@ -1,104 +1,123 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: GPL-2.0-or-later
-
 #include "couple_restart.hpp"
 
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include <fmt/core.h>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/state_record.hpp>
 
 namespace granflux::driver {
 
 namespace {
 
-/// Leading numbers of the block, all doubles; the lengths of the ranks' states follow, then these.
-struct Header {
-  double format = 1;
-  double ranks = 0;
-  double time_step = 0, steps_left = 0, owed = 0, next_fields_time = 0, fields_written = 0;
-};
-constexpr std::size_t header_doubles = sizeof(Header) / sizeof(double);
+using cfd::RecordReader;
+using cfd::RecordWriter;
 
-struct Ranks {
-  explicit Ranks(MPI_Comm comm) {
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &count);
+constexpr char kind[] = "coupled gas";
+using Numbers = std::array<double, sizeof(CoupleState) / sizeof(double)>;
+
+bool is_first(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank == 0;
+}
+
+/// Hosts' blocks; everything is written by rank 0.
+class Block {
+public:
+  Block(std::FILE* file, std::uint64_t bytes) : file_(file) {
+    const int size = int(bytes);
+    put(&size, sizeof size);
   }
-  int rank = 0, count = 1;
+  void put(const void* bytes, std::size_t count) {
+    good_ = std::fwrite(bytes, 1, count, file_) == count && good_;
+  }
+  void finish() const {
+    if (!good_)
+      throw std::runtime_error("the restart file could not be written: is the disk full?");
+  }
+
+private:
+  std::FILE* file_;
+  bool good_ = true;
 };
 
 } // namespace
 
-void write_couple_state(const CoupleState& state, std::FILE* file, MPI_Comm comm) {
-  const Ranks ranks(comm);
-  const auto length = (long long)(state.coupler.size());
-  std::vector<long long> lengths(std::size_t(ranks.count));
-  MPI_Allgather(&length, 1, MPI_LONG_LONG, lengths.data(), 1, MPI_LONG_LONG, comm);
-  const long long total = std::accumulate(lengths.begin(), lengths.end(), 0LL);
-  const auto bytes = (total + (long long)(lengths.size() + header_doubles)) * 8;
-  if (bytes > std::numeric_limits<int>::max())
-    throw ConfigError(
-        fmt::format("the gas state is {} bytes long; a restart file takes {} from one "
-                    "fix",
-                    bytes, std::numeric_limits<int>::max()));
-
-  std::vector<int> counts(lengths.begin(), lengths.end()), starts(lengths.size());
-  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-  std::vector<double> all(ranks.rank == 0 ? std::size_t(total) : 0);
-  MPI_Gatherv(state.coupler.data(), int(length), MPI_DOUBLE, all.data(), counts.data(),
-              starts.data(), MPI_DOUBLE, 0, comm);
-  if (ranks.rank != 0)
-    return;
-
-  const Header header{.ranks = double(ranks.count),
-                      .time_step = state.time_step,
-                      .steps_left = double(state.steps_left),
-                      .owed = state.owed,
-                      .next_fields_time = state.next_fields_time,
-                      .fields_written = double(state.fields_written)};
-  const std::vector<double> sizes(lengths.begin(), lengths.end());
-  const int size = int(bytes);
-  bool written = std::fwrite(&size, sizeof size, 1, file) == 1;
-  written = std::fwrite(&header, sizeof header, 1, file) == 1 && written;
-  written =
-      std::fwrite(sizes.data(), sizeof(double), sizes.size(), file) == sizes.size() && written;
-  written = std::fwrite(all.data(), sizeof(double), all.size(), file) == all.size() && written;
-  if (!written)
-    throw std::runtime_error("the restart file could not be written: is the disk full?");
+void check_block_fits(const coupling::Coupler& coupler) {
+  const std::uint64_t bytes =
+      RecordWriter::bytes(std::tuple_size_v<Numbers> + coupler.saved_numbers());
+  if (bytes > std::uint64_t(std::numeric_limits<int>::max()))
+    throw ConfigError(fmt::format("the gas state is {} bytes long; a restart file takes {} from "
+                                  "one fix: use fewer gas cells",
+                                  bytes, std::numeric_limits<int>::max()));
 }
 
-CoupleState read_couple_state(const char* block, MPI_Comm comm) {
-  const Ranks ranks(comm);
-  Header header;
-  std::memcpy(&header, block, sizeof header);
-  if (header.format != Header{}.format)
-    throw ConfigError(fmt::format("the restart file holds a gas state of format {}; this program "
-                                  "reads format {}",
-                                  header.format, Header{}.format));
-  if (int(header.ranks) != ranks.count)
-    throw ConfigError(fmt::format("the restart file was written by {} MPI ranks, this run has {}: "
-                                  "the gas continues on the same number of ranks only",
-                                  int(header.ranks), ranks.count));
-  std::vector<double> sizes(std::size_t(ranks.count));
-  const char* data = block + sizeof header;
-  std::memcpy(sizes.data(), data, sizes.size() * sizeof(double));
-  data += sizes.size() * sizeof(double);
-  const auto before = std::size_t(std::accumulate(sizes.begin(), sizes.begin() + ranks.rank, 0.0));
+void write_couple_state(const CoupleState& state, const coupling::Coupler& coupler, std::FILE* file,
+                        MPI_Comm comm) {
+  check_block_fits(coupler);
+  const auto numbers = std::bit_cast<Numbers>(state);
+  const std::uint64_t count = numbers.size() + coupler.saved_numbers();
+  int finite = 1;
+  if (is_first(comm)) {
+    Block block(file, RecordWriter::bytes(count));
+    RecordWriter out(kind, count, [&](const void* bytes, std::size_t n) { block.put(bytes, n); });
+    out.write(numbers);
+    coupler.save(&out);
+    out.finish();
+    block.finish();
+    finite = out.finite();
+  } else {
+    coupler.save(nullptr);
+  }
+  MPI_Bcast(&finite, 1, MPI_INT, 0, comm);
+  if (!finite)
+    throw NumericalError("the gas holds a number that is not finite: nothing to continue from");
+}
 
-  CoupleState state{.time_step = header.time_step,
-                    .steps_left = long(header.steps_left),
-                    .owed = header.owed,
-                    .next_fields_time = header.next_fields_time,
-                    .fields_written = long(header.fields_written),
-                    .coupler = std::vector<double>(std::size_t(sizes[std::size_t(ranks.rank)]))};
-  std::memcpy(state.coupler.data(), data + before * sizeof(double),
-              state.coupler.size() * sizeof(double));
-  return state;
+void write_couple_state(const std::optional<SavedCouple>& saved, std::FILE* file, MPI_Comm comm) {
+  if (!is_first(comm))
+    return;
+  const std::vector<char> nothing;
+  const std::vector<char>& record = saved ? saved->record : nothing;
+  if (!record.empty()) {
+    Block block(file, record.size());
+    block.put(record.data(), record.size());
+    return block.finish();
+  }
+  Block block(file, RecordWriter::bytes(0));
+  RecordWriter out(kind, 0, [&](const void* bytes, std::size_t n) { block.put(bytes, n); });
+  out.finish();
+  block.finish();
+}
+
+std::optional<SavedCouple> read_couple_state(const char* block, MPI_Comm comm) {
+  const std::uint64_t size = RecordReader::bytes({block, sizeof(cfd::RecordHeading)});
+  RecordReader in(kind, {block, std::max<std::size_t>(size, sizeof(cfd::RecordHeading))});
+  if (in.left() == 0)
+    return {};
+  Numbers numbers{};
+  in.read(numbers);
+  SavedCouple saved{.state = std::bit_cast<CoupleState>(numbers), .record = {}};
+  if (is_first(comm))
+    saved.record.assign(block, block + size);
+  return saved;
+}
+
+void load(const SavedCouple& saved, coupling::Coupler& coupler) {
+  if (!is_first(coupler.mesh().comm))
+    return coupler.load(nullptr);
+  RecordReader in(kind, saved.record);
+  Numbers numbers{};
+  in.read(numbers);
+  coupler.load(&in);
 }
 
 } // namespace granflux::driver

@@ -72,6 +72,14 @@ std::unique_ptr<coupling::Coupler> GasDriver::make_coupler() const {
   }
 }
 
+void GasDriver::load_restored(coupling::Coupler& coupler) const {
+  try {
+    load(*restored_, coupler);
+  } catch (const ConfigError& e) { // on all ranks alike
+    throw ConfigError(std::string("the gas of the restart file: ") + e.what());
+  }
+}
+
 /// Before the first run: the gas at its initial or restored state, the particles where they are.
 void GasDriver::begin(Host& host) {
   const Scene scene = host.scene();
@@ -82,16 +90,18 @@ void GasDriver::begin(Host& host) {
   if (!options_.any_box)
     check_box(scene, coupler->extent(), coupler->mesh().lattice.has_value());
   if (restored_) {
-    coupler->load(restored_->coupler);
-    clock_.restore(restored_->time_step, restored_->steps_left, restored_->owed);
-    last_force_dt_ = restored_->time_step;
-    next_fields_time_ = restored_->next_fields_time;
+    const CoupleState& state = restored_->state;
+    load_restored(*coupler);
+    clock_.restore(state.time_step, long(state.steps_left), state.owed);
+    last_force_dt_ = state.time_step;
+    next_fields_time_ = state.next_fields_time;
   } else {
     coupler->initialise(host.particles(true), 0);
   }
   if (!gas_case_.output.fields.empty())
-    fields_ = std::make_unique<cfd::CgnsWriter>(coupler->mesh(), gas_case_.output.fields,
-                                                restored_ ? restored_->fields_written : 0);
+    fields_ =
+        std::make_unique<cfd::CgnsWriter>(coupler->mesh(), gas_case_.output.fields,
+                                          restored_ ? long(restored_->state.fields_written) : 0);
   coupler_ = std::move(coupler);
   host.say(summary());
   if (!restored_)
@@ -302,24 +312,26 @@ bool GasDriver::modify(std::string_view key, const char* value) {
 }
 
 void GasDriver::write_state(std::FILE* file) const {
-  CoupleState state;
-  if (coupler_) {
-    state.time_step = clock_.time_step();
-    state.steps_left = clock_.steps_left();
-    state.owed = clock_.owed();
-    state.next_fields_time = next_fields_time_;
-    state.fields_written = fields_ ? fields_->next() : 0;
-    state.coupler = coupler_->save();
-  } else if (restored_) {
-    state = *restored_;
-  }
-  write_couple_state(state, file, comm_);
+  if (!coupler_)
+    return write_couple_state(restored_, file, comm_);
+  const CoupleState state{.time_step = clock_.time_step(),
+                          .steps_left = double(clock_.steps_left()),
+                          .owed = clock_.owed(),
+                          .next_fields_time = next_fields_time_,
+                          .fields_written = fields_ ? double(fields_->next()) : 0};
+  write_couple_state(state, *coupler_, file, comm_);
 }
 
 void GasDriver::read_state(const char* block) {
-  CoupleState state = read_couple_state(block, comm_);
-  if (state.time_step > 0) // else written before the first run: nothing to continue
-    restored_ = std::move(state);
+  try {
+    restored_ = read_couple_state(block, comm_);
+  } catch (const ConfigError& e) { // on all ranks alike
+    throw ConfigError(std::string("the gas of the restart file: ") + e.what());
+  }
+}
+
+void GasDriver::check_state_fits() const {
+  check_block_fits(*coupler_);
 }
 
 } // namespace granflux::driver

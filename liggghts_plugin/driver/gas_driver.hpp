@@ -69,9 +69,12 @@ public:
   /// and the next run continues from there.
   void write_state(std::FILE* file) const;
   void read_state(const char* block);
+  /// After set_up(): throws ConfigError where hosts cannot take so long a block.
+  void check_state_fits() const;
 
 private:
   void begin(Host& host);
+  void load_restored(coupling::Coupler& coupler) const;
   [[nodiscard]] std::unique_ptr<coupling::Coupler> make_coupler() const;
   [[nodiscard]] std::string summary() const;
   void exchange(Host& host);
@@ -92,7 +95,7 @@ private:
   std::unique_ptr<coupling::Coupler> coupler_; // from the first run on
   std::unique_ptr<cfd::CgnsWriter> fields_;    // where the case asks for fields
   double next_fields_time_ = 0;
-  std::optional<CoupleState> restored_; // from a restart file, until the first run
+  std::optional<SavedCouple> restored_; // from a restart file, until the first run
   /// Time step of the last force, of which the integrator has applied one half [s]; 0: none yet.
   double last_force_dt_ = 0;
 

@@ -17,9 +17,9 @@
 #include <lammps/timer.h>
 #include <lammps/update.h>
 
+#include "driver/restart_values.hpp"
 #include "fix_heat.hpp"
 #include "guard.hpp"
-#include "restart_values.hpp"
 #include "scene.hpp"
 
 namespace granflux::lammps {
@@ -207,7 +207,7 @@ int FixCouple::pack_restart(int particle, double* buffer) {
 }
 
 void FixCouple::unpack_restart(int particle, int nth) {
-  unpack_exchange(particle, restart_values(*atom, particle, nth));
+  unpack_exchange(particle, driver::restart_values(atom->extra, particle, nth));
 }
 
 int FixCouple::size_restart(int) {

@@ -10,8 +10,8 @@
 #include <lammps/fix.h>
 
 #include "driver/gas_driver.hpp"
+#include "driver/particle_rows.hpp"
 #include "host_view.hpp"
-#include "particle_rows.hpp"
 
 namespace granflux::lammps {
 

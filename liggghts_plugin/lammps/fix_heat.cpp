@@ -23,9 +23,9 @@
 
 #include <granflux/cfd/vec3.hpp>
 
+#include "driver/restart_values.hpp"
 #include "guard.hpp"
 #include "particle_subset/temperature_step.hpp"
-#include "restart_values.hpp"
 
 namespace granflux::lammps {
 
@@ -413,7 +413,7 @@ int FixHeat::pack_restart(int particle, double* buffer) {
 }
 
 void FixHeat::unpack_restart(int particle, int nth) {
-  unpack_exchange(particle, restart_values(*atom, particle, nth));
+  unpack_exchange(particle, driver::restart_values(atom->extra, particle, nth));
 }
 
 int FixHeat::size_restart(int) {

@@ -14,10 +14,12 @@
 
 #include "driver/heat_books.hpp"
 #include "driver/heat_report.hpp"
+#include "driver/particle_rows.hpp"
 #include "heat_words.hpp"
-#include "particle_rows.hpp"
 
 namespace granflux::lammps {
+
+using driver::ParticleRows;
 
 /// fix ID all granflux/heat initial_temperature T ...: a temperature for every particle, conduction
 /// through contacts and the heat of friction (docs/reference/granflux_lammps.md).

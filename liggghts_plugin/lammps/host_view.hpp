@@ -12,9 +12,11 @@
 
 #include "driver/host.hpp"
 #include "driver/particle_groups.hpp"
-#include "particle_rows.hpp"
+#include "driver/particle_rows.hpp"
 
 namespace granflux::lammps {
+
+using driver::ParticleRows;
 
 class FixHeat;
 

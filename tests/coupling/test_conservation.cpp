@@ -12,12 +12,15 @@
 #include <granflux/cfd/error.hpp>
 
 #include "fake_host.hpp"
+#include "saved_state.hpp"
 
 namespace {
 
 using namespace granflux;
 using granflux::testing::FakeHost;
+using granflux::testing::load;
 using granflux::testing::Particle;
+using granflux::testing::saved;
 using granflux::testing::sphere;
 
 constexpr double d = 1e-3; // m
@@ -192,10 +195,10 @@ TEST(Exchange, RestartContinuesBitForBit) {
     coupler->initialise(host.view(), 0);
     for (int step = 0; step < 12; ++step) {
       if (restart && step == 6) {
-        const std::vector<double> state = coupler->save();
+        const std::vector<char> state = saved(*coupler);
         coupler = std::make_unique<coupling::Coupler>(upflow(true), coupling::CouplingOptions{},
                                                       MPI_COMM_WORLD);
-        coupler->load(state);
+        load(*coupler, state);
       }
       host.step(*coupler, 1e-4, step % 4 == 0, 4e-4);
     }

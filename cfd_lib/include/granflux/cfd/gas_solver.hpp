@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <granflux/cfd/gas_case.hpp>
 #include <granflux/cfd/mesh.hpp>
+#include <granflux/cfd/state_record.hpp>
 
 namespace granflux::cfd {
 
@@ -118,10 +120,14 @@ public:
   /// Largest Courant number per time of the flow as it is [1/s]. Collective.
   [[nodiscard]] double courant_rate() const;
 
-  /// The solver's whole state of this rank's blocks, for a restart that continues bit for bit on
-  /// the same blocks; load throws ConfigError if the size does not fit.
-  [[nodiscard]] std::vector<double> save() const;
-  void load(const std::vector<double>& state);
+  /// How many numbers save() writes; the same on all ranks.
+  [[nodiscard]] std::uint64_t saved_numbers() const;
+  /// The solver's whole state, by cells of the grid as it was given: load() continues on any number
+  /// of ranks, and bit for bit on the same blocks. `out` and `in` are of rank 0, null elsewhere.
+  /// Collective; load() throws ConfigError on all ranks where the state is of another grid or of
+  /// other equations.
+  void save(RecordWriter* out) const;
+  void load(RecordReader* in);
 
 private:
   struct Impl;

@@ -64,11 +64,18 @@ struct Patch {
   std::optional<Link> link; ///< set where boundary is -1
 };
 
+/// Where a block lies in the grid as it was given, before it was cut for the ranks.
+struct Place {
+  int block = 0; ///< of the given grid
+  Index3 low{};  ///< the block's first cell there
+};
+
 /// What every rank knows of every block.
 struct BlockInfo {
   Index3 cells{};
   int rank = 0;
   std::vector<Patch> patches; ///< together they cover the six sides once
+  Place place{};
 };
 
 /// Node (i,j,k) of a block [m], 0 <= i <= cells[0] and so on.
@@ -79,7 +86,8 @@ struct GridBlock {
   std::string name; ///< for messages and files
   Index3 cells{};
   NodeMap node;
-  std::vector<Patch> patches; ///< together they cover the six sides once
+  std::vector<Patch> patches;   ///< together they cover the six sides once
+  std::optional<Place> place{}; ///< none: it is as given
 };
 
 /// A multi-block grid as a generator or a file gives it. Index triples (i,j,k) are right-handed:
@@ -142,10 +150,16 @@ struct Mesh {
   std::vector<BlockInfo> blocks;       ///< all blocks
   std::vector<Block> local;            ///< those of this rank, by increasing id
   std::vector<std::string> boundaries; ///< names of the boundary patches
+  std::vector<Index3> given;           ///< cells of each block of the grid as it was given
   bool orthogonal = true;              ///< no block of any rank has SkewMetrics
   std::optional<Lattice> lattice;      ///< set for box meshes
 
   [[nodiscard]] const BlockInfo& info(const Block& b) const { return blocks[std::size_t(b.id)]; }
+  /// Of a block of this rank, in `local`.
+  [[nodiscard]] std::size_t local_index(int id) const {
+    const auto found = std::ranges::lower_bound(local, id, {}, &Block::id);
+    return std::size_t(found - local.begin());
+  }
 };
 
 /// A cell of any block.

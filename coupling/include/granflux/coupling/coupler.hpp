@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -111,10 +112,11 @@ public:
   /// Of the gas grid.
   [[nodiscard]] const GridExtent& extent() const;
 
-  /// Solver state and ledger of this rank for an exact restart; see GasSolver::save. load() takes
-  /// the place of initialise(); the host keeps the FluidStates.
-  [[nodiscard]] std::vector<double> save() const;
-  void load(const std::vector<double>& state);
+  /// Solver state and books, as GasSolver::save; the host keeps the FluidStates. load() takes the
+  /// place of initialise().
+  [[nodiscard]] std::uint64_t saved_numbers() const;
+  void save(cfd::RecordWriter* out) const;
+  void load(cfd::RecordReader* in);
 
 private:
   struct Impl;

@@ -51,11 +51,17 @@ public:
   void close(const ExchangeSums& local, const cfd::Balance& gas, double interval,
              ExchangeReport& report);
 
+  /// Numbers that one rank saves.
+  static std::size_t saved_numbers();
   [[nodiscard]] std::vector<double> save() const;
-  void load(const std::vector<double>& state);
+  /// Of what so many ranks have saved, one after the other; the same on all ranks. On another
+  /// number of them rank 0 continues the books of all. Collective.
+  void load(const std::vector<double>& all, std::size_t ranks);
 
 private:
   struct Books;
+  /// visit(sum, whether it is the same on all ranks) for every running sum.
+  template <class Self, class Visit> static void for_sums(Self& self, Visit&& visit);
   static void add_books(void* in, void* inout, int* count, MPI_Datatype* type);
   void close_heat(const Books& all, double interval, ExchangeReport& report) const;
 

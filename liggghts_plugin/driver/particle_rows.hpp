@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-namespace granflux::lammps {
+namespace granflux::driver {
 
-/// Some doubles of each particle of this rank, kept by a fix: LAMMPS tells the fix when particles
+/// Some doubles of each particle of this rank, kept by a fix: the host tells the fix when particles
 /// come, go and change places, and the fix tells its rows.
 class ParticleRows {
 public:
@@ -15,7 +15,7 @@ public:
   explicit ParticleRows(std::vector<double> fresh) : fresh_(std::move(fresh)) {}
 
   [[nodiscard]] int columns() const { return int(fresh_.size()); }
-  /// Room for n particles; LAMMPS asks before it fills more.
+  /// Room for n particles; the host asks before it fills more.
   void grow(int n);
   void copy(int from, int to);
   void set_fresh(int particle);
@@ -23,7 +23,7 @@ public:
   int pack(int particle, double* buffer) const;
   int unpack(int particle, const double* buffer);
 
-  /// As LAMMPS takes per-particle arrays; valid until the next grow().
+  /// As hosts take per-particle arrays; valid until the next grow().
   [[nodiscard]] double** pointers() { return pointers_.data(); }
   [[nodiscard]] double* data() { return values_.data(); }
   [[nodiscard]] const double* data() const { return values_.data(); }
@@ -42,4 +42,4 @@ private:
   std::vector<double*> pointers_;
 };
 
-} // namespace granflux::lammps
+} // namespace granflux::driver

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace granflux::lammps {
+namespace granflux::driver {
 
 double* ParticleRows::row(int particle) {
   return values_.data() + std::size_t(particle) * fresh_.size();
@@ -49,4 +49,4 @@ double ParticleRows::bytes() const {
   return double(values_.capacity() * sizeof(double) + pointers_.capacity() * sizeof(double*));
 }
 
-} // namespace granflux::lammps
+} // namespace granflux::driver
