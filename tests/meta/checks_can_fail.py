@@ -11,10 +11,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import commands
 import format as format_check
 import headers_alone
+import keywords
 import layering
 import licences
+import links
 import registered
 
 CLANG_FORMAT, COMPILER = sys.argv.pop(1), sys.argv.pop(1)
@@ -107,6 +110,47 @@ class Checks(unittest.TestCase):
         self.assert_one_fault(headers_alone.faults_of(self.root, COMPILER, []), "granflux/b.hpp")
         self.write("coupling/src/b.cpp", BSD + "#include <granflux/b.hpp>\n")  # the build will tell
         self.assertEqual(headers_alone.faults_of(self.root, COMPILER, []), [])
+
+    def test_a_link_that_leads_nowhere(self):
+        page = "# A page\n\n[here](#a-page) [there](sub/other.md#two-words) [web](https://example.org)\n`[not](one)`\n"
+        self.write("page.md", page)
+        self.write("sub/other.md", "## Two words\n")
+        self.assertEqual(links.faults_of(self.root), [])
+        self.write("sub/other.md", "## Three words\n")
+        self.assert_one_fault(links.faults_of(self.root), "no such heading")
+        (self.root / "sub/other.md").unlink()
+        self.assert_one_fault(links.faults_of(self.root), "no such file")
+
+    def test_a_keyword_that_page_or_program_lacks(self):
+        tables = [("page.md", "keyword", ["a.cpp"], keywords.list_of_keywords)]
+        self.write("a.cpp", BSD + 'keywords{"one", "two"};\n')
+        table = "| keyword | value |\n| --- | --- |\n| `one` | x |\n| `two` | x |\n"
+        self.write("docs/reference/page.md", table)
+        self.assertEqual(keywords.faults_of(self.root, tables), [])
+        self.write("docs/reference/page.md", table + "| `three` | x |\n")
+        self.assert_one_fault(keywords.faults_of(self.root, tables), "three is unknown")
+        self.write("docs/reference/page.md", table.replace("two", "one"))
+        self.assert_one_fault(keywords.faults_of(self.root, tables), "two is not in")
+
+    def test_a_command_that_cannot_be_given(self):
+        self.write("CMakePresets.json", '{"configurePresets": [{"name": "release"}]}')
+        self.write("tests/meta/commands.txt", "mpirun -n 2 a -> too long\n")
+        self.write("page.md", "    cmake --preset release\n    mpirun -n 2 a  # so\n\n    ./run [NAME]\n")
+
+        def check():
+            return commands.faults_of(self.root, self.root, "false")
+
+        self.assertEqual(check(), [])
+        self.write("page.md", "    cmake --preset other\n    mpirun -n 2 a\n")
+        self.assert_one_fault(check(), "no preset other")
+        self.write("page.md", "    mpirun -n 2 a\n    ./run nothing\n")
+        self.assert_one_fault(check(), "no example nothing")
+        self.write("page.md", "    mpirun -n 2 a\n\n```sh\nctest -R none\n```\n")
+        self.assert_one_fault(check(), "no test is called none")
+        self.write("page.md", "    mpirun -n 2 a\n    granflux -in in.b\n")
+        self.assert_one_fault(check(), "neither checked nor")
+        self.write("page.md", "text\n")
+        self.assert_one_fault(check(), "on no page")
 
     def test_a_script_that_cannot_be_run(self):
         (self.root / "run").chmod(0o644)
