@@ -102,8 +102,8 @@ void ContactLists::find_reach(ThreadContacts& contacts) {
 
 /// The particles near to i that are above it or below its thread's range, in the order of the
 /// cells.
-int ContactLists::find_partners(const Particles& particles, double skin, Range own, int i,
-                                std::vector<int>& found) const {
+ContactLists::Found ContactLists::find_partners(const Particles& particles, double skin, Range own,
+                                                int i, std::vector<int>& found) const {
   const Vec3 x = particles.position[i];
   const double reach = particles.radius[i] + skin;
   const auto runs = cells_.around(x);
@@ -116,17 +116,34 @@ int ContactLists::find_partners(const Particles& particles, double skin, Range o
   const CellGrid::Entry* const entries = cells_.entries();
   const int* const numbers = cells_.numbers();
   int* const list = found.data();
-  int count = 0;
+  int count = 0, here = 0;
   for (const CellGrid::Run run : runs)
     for (int k = run.begin; k < run.end; ++k) {
       const CellGrid::Entry other = entries[k];
       const int p = numbers[k];
       const double limit = reach + other.radius;
-      const bool near = distance_squared(x, {other.x, other.y, other.z}) <= limit * limit;
+      const double apart = distance_squared(x, {other.x, other.y, other.z});
+      const bool near = apart <= limit * limit;
       list[count] = p; // overwritten by the next unless it is one
       count += near & ((p > i) | (p < own.begin));
+      here += apart == 0;
     }
-  return count;
+  return {count, here};
+}
+
+void ContactLists::find_coincident(const Particles& particles, Range own, int row,
+                                   ThreadContacts& contacts) {
+  const int i = own.begin + row;
+  const auto frozen = [&](int p) {
+    return particles.frozen_group && (particles.groups[p] & particles.frozen_group);
+  };
+  for (const ContactRows* rows : {&contacts.lower, &contacts.upper})
+    for (int e = rows->row_begin(row); e < rows->row_end(row); ++e) {
+      const int p = rows->partner[std::size_t(e)];
+      if (distance_squared(particles.position[i], particles.position[p]) == 0 &&
+          !(frozen(i) && frozen(p)))
+        contacts.coincident.emplace_back(i, p);
+    }
 }
 
 void ContactLists::build_rows(const Particles& particles, double skin, const Excluded& excluded,
@@ -139,9 +156,11 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
     rows->begin.assign(1, 0);
     rows->begin.reserve(std::size_t(own.size()) + 1);
   }
+  contacts.coincident.clear();
   std::vector<int> found;
   for (int i = own.begin; i < own.end; ++i) {
-    const auto count = std::ptrdiff_t(find_partners(particles, skin, own, i, found));
+    const auto [partners, here] = find_partners(particles, skin, own, i, found);
+    const auto count = std::ptrdiff_t(partners);
     const auto lower_begin = std::ptrdiff_t(lower.partner.size());
     for (auto p = found.begin(); p != found.begin() + count; ++p)
       if (!excluded || !excluded(std::min(i, *p), std::max(i, *p)))
@@ -149,6 +168,8 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
     std::sort(lower.partner.begin() + lower_begin, lower.partner.end());
     lower.begin.push_back(int(lower.partner.size()));
     upper.begin.push_back(int(upper.partner.size()));
+    if (here > 1)
+      find_coincident(particles, own, i - own.begin, contacts);
   }
   const HistoryLookup lookup(particles, kept, history_size_);
   lookup.restore(lower, own.size(), [&](int row, int p) { return std::pair(p, own.begin + row); });

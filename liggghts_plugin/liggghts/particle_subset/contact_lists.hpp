@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "cell_grid.hpp"
@@ -31,6 +32,8 @@ struct ThreadContacts {
   /// End of the own particles that forces are added to by the lower rows, and by them and the upper
   /// rows of the first 1, 2 ... blocks.
   std::vector<int> reach;
+  /// Pairs at the very same place, not both of the frozen group: their contact has no direction.
+  std::vector<std::pair<int, int>> coincident;
 
   [[nodiscard]] int reach_of_lower() const { return reach.front(); }
   [[nodiscard]] int reach_of_block(Range block) const {
@@ -77,8 +80,14 @@ public:
 private:
   void build_rows(const Particles& particles, double skin, const Excluded& excluded,
                   const PartnerHistory& kept, ThreadContacts& contacts) const;
-  int find_partners(const Particles& particles, double skin, Range own, int i,
-                    std::vector<int>& found) const;
+  struct Found {
+    int partners = 0;
+    int here = 0; ///< particles at the very place of this one, itself among them
+  };
+  Found find_partners(const Particles& particles, double skin, Range own, int i,
+                      std::vector<int>& found) const;
+  static void find_coincident(const Particles& particles, Range own, int row,
+                              ThreadContacts& contacts);
   static void find_reach(ThreadContacts& contacts);
 
   struct Kept {

@@ -23,6 +23,9 @@
 #include <liggghts/properties.h>
 #include <liggghts/update.h>
 
+#include <granflux/cfd/error.hpp>
+#include <granflux/coupling/throw_together.hpp>
+
 #include "fix_contact_history.hpp"
 #include "host_material.hpp"
 #include "say_once.hpp"
@@ -210,7 +213,29 @@ void PairGran::build_lists() {
   const double reach = heat_ ? heat_->reach() : 0;
   lists_.build(particles(), neighbor->skin + reach, omp_get_max_threads(), kernel_->history_size(),
                excluded, kept);
+  refuse_coincident();
   show_lists_to_host();
+}
+
+/// Stops on all ranks alike where two particles are at the very same place, before their contact
+/// makes numbers of no value.
+void PairGran::refuse_coincident() const {
+  std::string complaint;
+  for (int thread = 0; thread < lists_.subset().threads() && complaint.empty(); ++thread)
+    if (const auto& pairs = lists_.of(thread).coincident; !pairs.empty()) {
+      const auto [i, j] = pairs.front();
+      const Vec3& x = rows(atom->x)[i];
+      complaint =
+          fmt::format("particles {} and {} are both at ({:.10g}, {:.10g}, {:.10g}) m: their "
+                      "contact has no direction; move or delete one of them",
+                      std::min(atom->tag[i], atom->tag[j]), std::max(atom->tag[i], atom->tag[j]),
+                      x.x, x.y, x.z);
+    }
+  try {
+    coupling::throw_together<NumericalError>(world, complaint);
+  } catch (const NumericalError& e) {
+    error->all(FLERR, e.what());
+  }
 }
 
 void PairGran::show_lists_to_host() {
