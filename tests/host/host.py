@@ -18,7 +18,7 @@ MPIRUN = shlex.split(os.environ["MPIRUN"])
 TIMEOUT = 90  # s; a run that takes longer hangs
 # One rank alone needs no mpirun, which takes its time to start, and two seconds more to end a program that
 # failed; nor the daemon that Open MPI starts for a program without mpirun.
-ALONE = os.environ | {"OMPI_MCA_ess_singleton_isolated": "1"}
+ALONE = {"OMPI_MCA_ess_singleton_isolated": "1"}
 
 # Contacts and neighbour lists of spheres of 1 mm.
 MATERIAL = """fix             kn all property/global kn peratomtypepair 1 500
@@ -169,7 +169,7 @@ class HostTest(unittest.TestCase):
         done = subprocess.run(
             [*launch, program, "-in", "in.test", *options],
             cwd=self.folder,
-            env=os.environ if launch else ALONE,
+            env=os.environ if launch else os.environ | ALONE,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             timeout=TIMEOUT + 20,
