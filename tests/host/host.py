@@ -165,9 +165,13 @@ class HostTest(unittest.TestCase):
     def start(self, script, ranks=1, program=GRANFLUX, options=()):
         """Runs a script; returns (exit code, all output)."""
         self.write("in.test", script)
+        return self.launch(program, ["-in", "in.test", *options], ranks)
+
+    def launch(self, program, words, ranks=1):
+        """Runs a program; returns (exit code, all output)."""
         launch = [*MPIRUN, "--timeout", str(TIMEOUT), "-n", str(ranks)] if ranks > 1 else []
         done = subprocess.run(
-            [*launch, program, "-in", "in.test", *options],
+            [*launch, program, *words],
             cwd=self.folder,
             env=os.environ if launch else os.environ | ALONE,
             stdout=subprocess.PIPE,
