@@ -75,7 +75,7 @@ Relaxation relax(double dt, int steps) {
 }
 
 TEST(Relaxation, IsMonotoneAndConservesMomentumHoweverStiff) {
-  for (const double stiffness : {0.1, 1., 10., 100.}) {
+  for (const double stiffness : {0.1, 1., 10., 100., 1000.}) {
     const int steps = stiffness < 1 ? 300 : 40;
     const Relaxation r = relax(stiffness / rate, steps);
     EXPECT_LT(r.momentum_error, 1e-12) << "dt x rate " << stiffness;
@@ -89,6 +89,26 @@ TEST(Relaxation, IsMonotoneAndConservesMomentumHoweverStiff) {
     EXPECT_NEAR(r.gas.back(), final_velocity, 1e-9) << "dt x rate " << stiffness;
     EXPECT_NEAR(r.solid.back(), final_velocity, 1e-9) << "dt x rate " << stiffness;
   }
+}
+
+/// Slip after some explicit steps of the two equations: each multiplies it by 1 - dt rate.
+double explicit_slip(double stiffness, int steps) {
+  const double dt = stiffness / rate;
+  double u = 1, v = 0;
+  for (int s = 0; s < steps; ++s) {
+    const double drag = 1000 * (u - v);
+    u -= dt * drag / 0.72;
+    v += dt * drag / 400;
+  }
+  return u - v;
+}
+
+TEST(Relaxation, ExplicitDragOvershootsBeyondOneAndBlowsUpBeyondTwo) {
+  EXPECT_GT(explicit_slip(0.1, 1), 0);
+  EXPECT_LT(explicit_slip(1.5, 1), 0);
+  EXPECT_LT(std::abs(explicit_slip(1.5, 40)), 1e-9);
+  for (const double stiffness : {10., 100., 1000.})
+    EXPECT_GT(std::abs(explicit_slip(stiffness, 40)), 1e30) << stiffness;
 }
 
 TEST(Relaxation, RateConvergesToTheClosedForm) {
