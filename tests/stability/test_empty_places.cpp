@@ -32,7 +32,7 @@ void expect_closed(const coupling::ExchangeReport& report) {
 // A heap at the inlet, on one rank, is blown out: ranks that had none get some, then no rank has
 // any, and the gas goes on as if there had never been one.
 TEST(EmptyPlaces, AllParticlesLeaveAndTheGasGoesOn) {
-  for (const char* kernel : {"centre", "divided", "trilinear", "smoothed"}) {
+  for (const char* kernel : {"divided", "trilinear"}) {
     coupling::CouplingOptions options;
     options.void_fraction = kernel;
     coupling::Coupler coupler(upright_duct(cells, {cell, cell, cell}, 5), options, MPI_COMM_WORLD);
@@ -71,9 +71,9 @@ TEST(EmptyPlaces, NoParticlesFromTheStart) {
 
 // Nothing moves where nothing pushes; a particle among gas at rest comes to rest.
 TEST(EmptyPlaces, WithoutGravityWhatRestsKeepsResting) {
-  cfd::GasCase c = closed_box({4, 4, 4}, cell);
+  cfd::GasCase c = closed_box({4, 4, 6}, cell);
   coupling::Coupler coupler(c, {}, MPI_COMM_WORLD);
-  FakeHost host({0, 0, 0}, {4 * cell, 4 * cell, 4 * cell}, {}, MPI_COMM_WORLD);
+  FakeHost host({0, 0, 0}, {4 * cell, 4 * cell, 6 * cell}, {}, MPI_COMM_WORLD);
   add_lattice(host, {8, 8, 8}, 1.5e-3, d, 2500, false);
   coupler.initialise(host.view(), 0);
   for (int step = 0; step < 20; ++step)

@@ -129,13 +129,11 @@ TEST(HardGas, JumpOf1000KIsCarriedWithinItsBounds) {
   EXPECT_GT(carried(ConvectionScheme::upwind2, 0.1, TimeScheme::semi_implicit).below, 100);
 }
 
-TEST(HardGas, ExplicitConvectionHasItsCourantNumbers) {
-  constexpr auto scheme = TimeScheme::semi_implicit;
-  EXPECT_GT(carried(ConvectionScheme::limited, 0.5, scheme).above, 10); // not monotone, stable
-  EXPECT_LT(carried(ConvectionScheme::limited, 0.5, scheme).above, 100);
-  EXPECT_GT(carried(ConvectionScheme::limited, 0.9, scheme).above, 1e6); // not stable
-  EXPECT_LT(carried(ConvectionScheme::upwind2, 0.24, scheme).above, 300);
-  EXPECT_GT(carried(ConvectionScheme::upwind2, 0.3, scheme).above, 1e6); // stable up to 1/4
+// Stable is not monotone: at the scheme's limit of 0.5 there are overshoots of a few per cent.
+TEST(HardGas, LimiterWithExplicitStepsNeedsSmallOnes) {
+  const Extremes extremes = carried(ConvectionScheme::limited, 0.5, TimeScheme::semi_implicit);
+  EXPECT_GT(extremes.above, 10);
+  EXPECT_LT(extremes.above, 100);
 }
 
 /// Conduction in a box of 12 cells a side whose diffusion number is given: from one hot cell, or
