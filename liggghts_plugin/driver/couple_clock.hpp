@@ -28,6 +28,8 @@ public:
   }
   void count_step() { --steps_left_; }
   [[nodiscard]] bool due() const { return steps_left_ <= 0; }
+  /// Particle steps a coupling step.
+  [[nodiscard]] int every() const { return every_; }
   /// Seconds by which the coupling step advances the gas.
   [[nodiscard]] double interval() const { return every_ * dt_ + owed_; }
   void advanced() { steps_left_ = every_, owed_ = 0; }

@@ -33,6 +33,7 @@ GasDriver::GasDriver(std::span<char*> words, MPI_Comm comm)
   gas_case_ = cfd::read_gas_case(file);
   coupling_options_ = coupling::read_coupling(file);
   file.finish();
+  stable_.emplace(gas_case_, coupling_options_);
 }
 
 /// What the run is made of, so that a wrong unit shows before it starts.
@@ -81,12 +82,15 @@ void GasDriver::load_restored(coupling::Coupler& coupler) const {
 }
 
 /// Before the first run: the gas at its initial or restored state, the particles where they are.
-void GasDriver::begin(Host& host) {
+void GasDriver::begin(Host& host, double dt) {
   const Scene scene = host.scene();
   if (const std::string note = settle_gravity(scene, gas_case_.fluid); !note.empty())
     host.say(fmt::format("granflux: {}\n", note));
 
   auto coupler = make_coupler();
+  stable_->set_mesh(coupler->mesh(), coupler->gas());
+  const coupling::ParticleView particles = host.particles(true);
+  stable_->look(host, particles, dt, clock_.every() * dt, comm_);
   if (!options_.any_box)
     check_box(scene, coupler->extent(), coupler->mesh().lattice.has_value());
   if (restored_) {
@@ -96,7 +100,7 @@ void GasDriver::begin(Host& host) {
     last_force_dt_ = state.time_step;
     next_fields_time_ = state.next_fields_time;
   } else {
-    coupler->initialise(host.particles(true), 0);
+    coupler->initialise(particles, 0);
   }
   if (!gas_case_.output.fields.empty())
     fields_ =
@@ -110,8 +114,11 @@ void GasDriver::begin(Host& host) {
 }
 
 void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
-  if (!coupler_)
-    begin(host);
+  explaining(host, steps.first, [&] {
+    stable_->begin_run(host);
+    if (!coupler_)
+      begin(host, dt);
+  });
   begin_run(steps);
   clock_.set_time_step(dt);
 
@@ -120,7 +127,11 @@ void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
   if (last_force_dt_ > 0)
     coupler_->unapply(host.particles(false), last_force_dt_, half_kick);
   if (clock_.due())
-    exchange(host);
+    exchange(host, steps.first);
+  else
+    explaining(host, steps.first, [&] { look(host, host.particles(true)); });
+  host.say(stable_->table());
+  warn_of_limits(host);
   apply(host, half_kick);
 }
 
@@ -151,7 +162,7 @@ bool GasDriver::step(Host& host, long step, double dt) {
   clock_.count_step();
   const bool coupling_step = clock_.due();
   if (coupling_step)
-    exchange(host);
+    exchange(host, step);
   apply(host, 1);
   if (coupling_step)
     if (const std::string line = progress_.line(step, coupler_->gas().time(), MPI_Wtime());
@@ -160,27 +171,39 @@ bool GasDriver::step(Host& host, long step, double dt) {
   return coupling_step;
 }
 
-void GasDriver::exchange(Host& host) {
-  const coupling::ExchangeReport& report =
-      coupler_->exchange(host.particles(true), clock_.interval());
+/// Whether the particles are to be believed, before they meet the gas.
+void GasDriver::look(Host& host, const coupling::ParticleView& particles) {
+  stable_->look(host, particles, clock_.time_step(), clock_.interval(), comm_);
+}
+
+void GasDriver::exchange(Host& host, long step) {
+  explaining(host, step, [&] {
+    const coupling::ParticleView particles = host.particles(true);
+    look(host, particles);
+    stable_->follow(coupler_->exchange(particles, clock_.interval()));
+  });
   clock_.advanced();
-  warn_if_stiff(host, report.stiffness_max);
-  largest_.add(report, coupler_->gas().balance());
+  if (step > steps_.first) // else after the table
+    warn_of_limits(host);
+  largest_.add(coupler_->report(), coupler_->gas().balance());
   write_fields();
 }
 
-/// Once: the gas of a packed bed that is not marked as fixed is then not stable.
-void GasDriver::warn_if_stiff(Host& host, double stiffness) {
-  if (stiffness <= stiffness_limit || warned_of_stiffness_)
-    return;
-  warned_of_stiffness_ = true;
-  host.say(fmt::format(
-      "granflux: WARNING: the coupling interval is {:.3g} times the response time of "
-      "the quickest particle; above {} gas in a packed bed that contacts hold may not "
-      "be stable: lower couple_every to {} or less, or name held particles by "
-      "fixed_group\n",
-      stiffness, stiffness_limit,
-      std::max(1, int(clock_.interval() / clock_.time_step() * stiffness_limit / stiffness))));
+/// Each number once: what is beyond its limit is not to be trusted from here on.
+void GasDriver::warn_of_limits(Host& host) {
+  for (const std::string& warning : stable_->new_warnings())
+    host.say(fmt::format("granflux: WARNING: {}\n", warning));
+}
+
+/// Runs what may fail on all ranks alike, and adds to the error the step and the likely cause.
+template <class Work> void GasDriver::explaining(Host& host, long step, Work&& work) {
+  try {
+    work();
+  } catch (const NumericalError& error) {
+    warn_of_limits(host);
+    throw NumericalError(
+        fmt::format("step {}: {}; {}", step, error.what(), stable_->likely_cause()));
+  }
 }
 
 void GasDriver::apply(Host& host, double share) {

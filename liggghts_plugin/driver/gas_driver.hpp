@@ -19,6 +19,7 @@
 #include "host.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
+#include "stable_run.hpp"
 
 namespace granflux::driver {
 
@@ -73,12 +74,14 @@ public:
   void check_state_fits() const;
 
 private:
-  void begin(Host& host);
+  void begin(Host& host, double dt);
   void load_restored(coupling::Coupler& coupler) const;
   [[nodiscard]] std::unique_ptr<coupling::Coupler> make_coupler() const;
   [[nodiscard]] std::string summary() const;
-  void exchange(Host& host);
-  void warn_if_stiff(Host& host, double stiffness);
+  void look(Host& host, const coupling::ParticleView& particles);
+  void exchange(Host& host, long step);
+  void warn_of_limits(Host& host);
+  template <class Work> void explaining(Host& host, long step, Work&& work);
   void apply(Host& host, double share);
   void write_fields();
   [[nodiscard]] coupling::CouplingTimes coupling_times() const;
@@ -89,6 +92,7 @@ private:
   CoupleOptions options_;
   cfd::GasCase gas_case_;
   coupling::CouplingOptions coupling_options_;
+  std::optional<StableRun> stable_; // from the constructor on
   CoupleClock clock_;
   Progress progress_;
 
@@ -102,7 +106,6 @@ private:
   // Of the current run.
   bool running_ = false;
   RunSteps steps_;
-  bool warned_of_stiffness_ = false; ///< in this or an earlier run
   coupling::CouplingTimes times_at_start_;
   long numbers_sent_at_start_ = 0;
   double fields_seconds_ = 0;

@@ -6,6 +6,7 @@
 
 #include <granflux/coupling/particle_view.hpp>
 
+#include "contact_time.hpp"
 #include "scene.hpp"
 
 namespace granflux::driver {
@@ -17,6 +18,9 @@ public:
 
   /// Collective.
   virtual Scene scene() = 0;
+
+  /// What of the contacts limits the time step, by the particles as they are. Collective.
+  virtual ContactTimes contact_times() = 0;
 
   /// The particles of this rank: valid until the host moves, sorts or communicates them. `with_id`
   /// where errors may have to name a particle.

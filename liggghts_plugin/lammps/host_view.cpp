@@ -13,6 +13,7 @@
 #include <lammps/fix.h>
 #include <lammps/modify.h>
 
+#include "contact_times.hpp"
 #include "fix_heat.hpp"
 #include "scene.hpp"
 
@@ -42,6 +43,10 @@ void HostView::find_held() {
 
 driver::Scene HostView::scene() {
   return scene_of(*lmp);
+}
+
+driver::ContactTimes HostView::contact_times() {
+  return contact_times_of(*lmp);
 }
 
 coupling::ParticleView HostView::particles(bool with_id) {

@@ -14,6 +14,7 @@
 #include <liggghts/fix_property_atom.h>
 #include <liggghts/modify.h>
 
+#include "contact_times.hpp"
 #include "fix_heat.hpp"
 #include "scene.hpp"
 
@@ -44,6 +45,10 @@ void HostView::find_held() {
 
 driver::Scene HostView::scene() {
   return scene_of(*lmp);
+}
+
+driver::ContactTimes HostView::contact_times() {
+  return contact_times_of(*lmp);
 }
 
 coupling::ParticleView HostView::particles(bool with_id) {

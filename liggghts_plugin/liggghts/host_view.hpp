@@ -38,6 +38,7 @@ public:
   }
 
   driver::Scene scene() override;
+  driver::ContactTimes contact_times() override;
   coupling::ParticleView particles(bool with_id) override;
   void clear_frozen_forces() override;
   double step_temperatures() override;

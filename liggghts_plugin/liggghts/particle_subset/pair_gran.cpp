@@ -26,8 +26,10 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/coupling/throw_together.hpp>
 
+#include "contact_report.hpp"
 #include "fix_contact_history.hpp"
 #include "host_material.hpp"
+#include "normal_law.hpp"
 #include "say_once.hpp"
 #include "work_times.hpp"
 
@@ -131,6 +133,15 @@ void PairGran::init_granular() {
   if (by_subset_)
     kernel_->read(HostMaterial(force->registry, words_, "pair_style gran"),
                   atom->get_properties()->max_type());
+  if (const std::string report = granflux::liggghts::contact_report(*lmp); !report.empty())
+    say_once(*lmp, report);
+}
+
+std::optional<NormalForce> PairGran::normal_force(int a, int b, const Contact& contact) const {
+  if (!words_.malformed.empty() || !words_.unsupported_option().empty())
+    return {};
+  return particle_subset::normal_force(
+      words_.laws.normal, HostMaterial(force->registry, words_, "pair_style gran"), a, b, contact);
 }
 
 Particles PairGran::particles() const {

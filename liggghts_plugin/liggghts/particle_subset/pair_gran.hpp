@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,11 @@ public:
   /// Whether contacts are remembered in the lists here, not in LIGGGHTS' own.
   [[nodiscard]] bool holds_history() const { return by_subset_; }
   void store_history(PartnerHistory kept);
+
+  /// Normal force of one contact of types a and b, for what follows from the law once a run;
+  /// nothing where the law, or an option of it, has no form by particle subset.
+  [[nodiscard]] std::optional<NormalForce> normal_force(int a, int b, const Contact& contact) const;
+  [[nodiscard]] const std::string& normal_law() const { return words_.laws.normal; }
 
   /// From here on, until the next init_style(), contacts make heat too. Only by particle subset.
   void set_heat(HeatPort& heat) { heat_ = &heat; }

@@ -38,6 +38,7 @@ public:
   /// Why the number is not known; it is forgotten.
   void forget(std::size_t row, std::string why);
 
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] Standing standing(std::size_t row) const;
   /// Number over limit, or limit over number where the limit is a lower one: above 1 is beyond. 0
   /// where there is no limit or no number.

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "particle_probe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
+namespace granflux::driver {
+
+namespace {
+
+double squared(const Vec3& v) {
+  return dot(v, v);
+}
+
+double sum(const Vec3& v) {
+  return v.x + v.y + v.z;
+}
+
+std::string text(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+/// Not-a-number fails every comparison: both are false for it.
+bool believable(const coupling::ParticleView& view, std::size_t p) {
+  return std::abs(sum(view.position[p]) + sum(view.velocity[p]) + sum(view.force[p])) <=
+         std::numeric_limits<double>::max();
+}
+bool within(double distance_squared, double radius) {
+  return distance_squared <= radius * radius;
+}
+
+} // namespace
+
+ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm comm) const {
+  const double dt2 = time_step * time_step, path2 = judge_path ? dt2 : 0;
+  constexpr double far = std::numeric_limits<double>::max();
+  double bad = 0, speed2 = 0, rate2 = 0, least_radius = far, least_mass = far, largest_radius = 0;
+  const auto n = std::ptrdiff_t(view.size());
+#pragma omp parallel for schedule(static) reduction(max                                            \
+                                                    : bad, speed2, rate2, largest_radius)          \
+    reduction(min                                                                                  \
+              : least_radius, least_mass)
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const auto p = std::size_t(i);
+    const double r = view.radius[p], m = view.mass[p], v2 = squared(view.velocity[p]);
+    const double kick2 = squared(view.force[p]) * dt2 * dt2 / (m * m);
+    const bool free = view.fixed.empty() || !view.fixed[p];
+    const bool warm =
+        view.temperature.empty() || (view.temperature[p] >= 0 && view.temperature[p] <= far);
+    if (!(believable(view, p) && within(free ? kick2 : 0, r) && within(v2 * path2, r) && warm))
+      bad = 1;
+    speed2 = std::max(speed2, v2);
+    rate2 = std::max(rate2, v2 / (r * r));
+    least_radius = std::min(least_radius, r);
+    least_mass = std::min(least_mass, m);
+    largest_radius = std::max(largest_radius, r);
+  }
+  std::array<double, 6> all{bad, speed2, rate2, -least_radius, -least_mass, largest_radius};
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), int(all.size()), MPI_DOUBLE, MPI_MAX, comm);
+  const bool some = all[5] > 0;
+  return {.good = all[0] == 0,
+          .speed = std::sqrt(all[1]),
+          .speed_over_radius = std::sqrt(all[2]),
+          .least_radius = some ? -all[3] : 0,
+          .least_mass = some ? -all[4] : 0,
+          .largest_radius = all[5]};
+}
+
+std::string ParticleJudge::complaint(const coupling::ParticleView& view) const {
+  const double dt2 = time_step * time_step;
+  const auto who = [&](std::size_t p) {
+    return fmt::format("particle {}at {} m, velocity {} m/s",
+                       view.id.empty() ? "" : fmt::format("{} ", view.id[p]),
+                       text(view.position[p]), text(view.velocity[p]));
+  };
+  // Its own state first: forces that are not a number may come from a neighbour's.
+  for (std::size_t p = 0; p < view.size(); ++p) {
+    if (!std::isfinite(sum(view.position[p]) + sum(view.velocity[p])))
+      return fmt::format("{}: not a number", who(p));
+    if (!view.temperature.empty() &&
+        !(view.temperature[p] >= 0 && std::isfinite(view.temperature[p])))
+      return fmt::format("{}: temperature {:.6g} K", who(p), view.temperature[p]);
+  }
+  for (std::size_t p = 0; p < view.size(); ++p) {
+    const double r = view.radius[p], kick = dt2 * norm(view.force[p]) / view.mass[p];
+    const bool free = view.fixed.empty() || !view.fixed[p];
+    if (!std::isfinite(sum(view.force[p])))
+      return fmt::format("{}: its force {} N is not a number", who(p), text(view.force[p]));
+    if (free && !within(kick * kick, r))
+      return fmt::format("{}: its force of {:.3g} N moves it by {:.3g} of its radius in one step",
+                         who(p), norm(view.force[p]), kick / r);
+    if (judge_path && !within(squared(view.velocity[p]) * dt2, r))
+      return fmt::format("{}: moves by {:.3g} of its radius in one step", who(p),
+                         time_step * norm(view.velocity[p]) / r);
+  }
+  return {};
+}
+
+} // namespace granflux::driver
