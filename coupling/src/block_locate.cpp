@@ -3,6 +3,7 @@
 #include <granflux/coupling/block_locate.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -73,9 +74,12 @@ bool holds(const std::array<Vec3, 8>& node, const Vec3& x) {
 } // namespace
 
 BlockLocator::BlockLocator(const cfd::Mesh& mesh) {
+  static std::atomic<long> editions = 0;
+  edition_ = ++editions;
   gather_nodes(mesh);
   find_periods(mesh);
   fill_bins();
+  find_neighbours();
 }
 
 /// Those of all blocks, from the ranks that own them.
@@ -166,7 +170,8 @@ void BlockLocator::find_faces(Cell& cell, const std::array<Vec3, 8>& node) {
       }
       *face++ = {.normal = {float(normal.x), float(normal.y), float(normal.z)},
                  .inner = float(inner - plane_rounding * size),
-                 .outer = float(outer + plane_rounding * size)};
+                 .outer = float(outer + plane_rounding * size),
+                 .across = none};
     }
   // A cell whose middle is not before all its faces: none of its points is told by planes.
   if (std::ranges::any_of(cell.faces, [](const Face& f) { return !(f.inner > 0); }))
@@ -189,25 +194,163 @@ BlockLocator::Verdict BlockLocator::judge(const Cell& cell, const Vec3& x) {
   return inside ? Verdict::inside : Verdict::open;
 }
 
-const BlockLocator::Cell& BlockLocator::cell_of(const Index3& in_stack) const {
+int BlockLocator::number(const Index3& in_stack) const {
   const Nodes& block = blocks_[std::size_t(block_of_layer_[std::size_t(in_stack[2])])];
   const auto [ni, nj, nk] = block.cells;
-  return cells_[block.first_cell + std::size_t(in_stack[0]) +
-                std::size_t(ni) * (std::size_t(in_stack[1]) +
-                                   std::size_t(nj) * std::size_t(in_stack[2] - block.first))];
+  return int(block.first_cell) + in_stack[0] +
+         ni * (in_stack[1] + nj * (in_stack[2] - block.first));
+}
+
+Index3 BlockLocator::in_stack(int cell) const {
+  const Cell& c = cells_[std::size_t(cell)];
+  return {c.at[0], c.at[1], c.at[2] + blocks_[std::size_t(c.block)].first};
+}
+
+/// The face whose inner plane x is farthest beyond, or least far behind.
+BlockLocator::Outermost BlockLocator::outermost(const Cell& cell, const Vec3& x) {
+  const Vec3 away = x - cell.middle;
+  const std::array at{float(away.x), float(away.y), float(away.z)};
+  const auto of_face = [&](const Face& f) {
+    const float height = f.normal[0] * at[0] + f.normal[1] * at[1] + f.normal[2] * at[2];
+    return Outermost{height - f.inner, f.across};
+  };
+  Outermost found = of_face(cell.faces[0]); // not a number if x is not
+  for (std::size_t f = 1; f < cell.faces.size(); ++f)
+    if (const Outermost other = of_face(cell.faces[f]); other.beyond > found.beyond)
+      found = other;
+  return found;
 }
 
 std::optional<Index3> BlockLocator::cell(const Vec3& x, const Index3& near) const {
-  return judge(cell_of(near), x) == Verdict::inside ? near : cell(x);
+  constexpr int most_steps = 4;
+  int at = number(near);
+  for (int step = 0; step < most_steps && at != none; ++step) {
+    const Outermost face = outermost(cells_[std::size_t(at)], x);
+    if (face.beyond < 0)
+      return in_stack(at);
+    at = face.across;
+  }
+  return cell(x);
 }
 
-bool BlockLocator::surely_within(const Index3& cell, const Vec3& centre, double radius) const {
-  const Cell& c = cell_of(cell);
-  const Vec3 away = centre - c.middle;
-  return std::ranges::all_of(c.faces, [&](const Face& f) {
-    const Vec3 normal{f.normal[0], f.normal[1], f.normal[2]};
-    return dot(normal, away) + radius < double(f.inner);
-  });
+double BlockLocator::room(const Index3& cell, const Vec3& x) const {
+  return -double(outermost(cells_[std::size_t(number(cell))], x).beyond);
+}
+
+/// Finds the cells of the points of one set: of all points at once whether they lie in a cell, then
+/// of the cell that the first of those left leads to.
+class BlockLocator::PointSearch {
+public:
+  PointSearch(const BlockLocator& blocks, const PointSet& points, const Vec3& centre, double radius)
+      : blocks_(blocks), points_(points), centre_(centre), radius_(float(radius)) {
+    part_.fill(none);
+  }
+
+  PointsInCells from(int near) {
+    take(near);
+    int at = near;
+    for (int k = first_left(); k < points_.count; k = first_left()) {
+      const int next = outermost(blocks_.cells_[std::size_t(at)], place(k)).across;
+      if (next != none && !has(next)) {
+        at = next;
+        take(at);
+      } else {
+        search(k, near);
+        at = near;
+      }
+    }
+    return in_order();
+  }
+
+private:
+  static constexpr int most = PointSet::most;
+
+  [[nodiscard]] Vec3 place(int k) const {
+    const auto n = std::size_t(k);
+    return centre_ + double(radius_) * Vec3{points_.x[n], points_.y[n], points_.z[n]};
+  }
+  [[nodiscard]] bool has(int cell) const {
+    return std::find(cell_.begin(), cell_.begin() + cells_, cell) != cell_.begin() + cells_;
+  }
+  [[nodiscard]] int first_left() const {
+    int first = most;
+    for (int k = most - 1; k >= 0; --k)
+      first = part_[std::size_t(k)] == none ? k : first;
+    return first;
+  }
+
+  /// The points that surely lie in a cell.
+  void take(int number) {
+    const Cell& cell = blocks_.cells_[std::size_t(number)];
+    const Vec3 away = centre_ - cell.middle;
+    const std::array at{float(away.x), float(away.y), float(away.z)};
+    alignas(64) std::array<float, most> beyond;
+    beyond.fill(-std::numeric_limits<float>::infinity());
+    for (const Face& f : cell.faces) {
+      const float height =
+          f.normal[0] * at[0] + f.normal[1] * at[1] + f.normal[2] * at[2] - f.inner;
+      const float nx = radius_ * f.normal[0], ny = radius_ * f.normal[1],
+                  nz = radius_ * f.normal[2];
+      for (std::size_t k = 0; k < most; ++k) {
+        const float h = height + nx * points_.x[k] + ny * points_.y[k] + nz * points_.z[k];
+        beyond[k] = h > beyond[k] ? h : beyond[k];
+      }
+    }
+    const int part = cells_;
+    float room = room_;
+    for (std::size_t k = 0; k < most; ++k) {
+      const bool taken = (part_[k] == none) & (beyond[k] < 0);
+      part_[k] = taken ? part : part_[k];
+      const float left = taken ? -beyond[k] : room_;
+      room = left < room ? left : room;
+    }
+    room_ = room;
+    cell_[std::size_t(cells_++)] = number;
+  }
+
+  /// A point that planes do not tell.
+  void search(int k, int near) {
+    const int found = blocks_.find(place(k));
+    const int cell = found == none ? near : found;
+    int part = 0;
+    while (part < cells_ && cell_[std::size_t(part)] != cell)
+      ++part;
+    if (part == cells_)
+      cell_[std::size_t(cells_++)] = cell;
+    part_[std::size_t(k)] = part;
+    room_ = found == none ? std::min(room_, float(blocks_.away_from_all(place(k)))) : 0;
+  }
+
+  [[nodiscard]] PointsInCells in_order() const {
+    PointsInCells found;
+    found.room = double(room_);
+    std::array<int, 2 * most> place;
+    place.fill(none);
+    for (int k = 0; k < points_.count; ++k) {
+      const int part = part_[std::size_t(k)];
+      int& at = place[std::size_t(part)];
+      if (at == none) {
+        at = found.count++;
+        found.parts[std::size_t(at)] = {blocks_.in_stack(cell_[std::size_t(part)]), 0};
+      }
+      ++found.parts[std::size_t(at)].points;
+    }
+    return found;
+  }
+
+  const BlockLocator& blocks_;
+  const PointSet& points_;
+  const Vec3 centre_;
+  const float radius_;
+  alignas(64) std::array<int, most> part_; ///< of each point, in cell_, or none
+  std::array<int, 2 * most> cell_{};       ///< numbers of those looked at
+  int cells_ = 0;
+  float room_ = std::numeric_limits<float>::max();
+};
+
+BlockLocator::PointsInCells BlockLocator::cells(const PointSet& points, const Vec3& centre,
+                                                double radius, const Index3& near) const {
+  return PointSearch(*this, points, centre, radius).from(number(near));
 }
 
 /// The bin of a point, or the one next to it.
@@ -264,10 +407,35 @@ void BlockLocator::fill_bins() {
     for_bins(cells_[n], [&](std::size_t b) { candidates_[next[b]++] = std::uint32_t(n); });
 }
 
-std::optional<Index3> BlockLocator::cell(const Vec3& x) const {
+/// Within a block by number, from block to block by a point just outside.
+void BlockLocator::find_neighbours() {
+  for (Cell& c : cells_) {
+    const Index3& cells = blocks_[std::size_t(c.block)].cells;
+    const int here = int(&c - cells_.data());
+    const std::array step{1, cells[0], cells[0] * cells[1]};
+    const std::array<Vec3, 8> node = corners(c);
+    for (std::size_t d = 0; d < 3; ++d)
+      for (const int high : {0, 1}) {
+        int& across = c.faces[2 * d + std::size_t(high)].across;
+        const int beside = c.at[d] + (high ? 1 : -1);
+        if (beside >= 0 && beside < cells[d]) {
+          across = here + (high ? step[d] : -step[d]);
+          continue;
+        }
+        Vec3 middle; // of the face
+        for (int n = 0; n < 8; ++n)
+          if ((n >> d & 1) == high)
+            middle += 0.25 * node[std::size_t(n)];
+        constexpr double just_outside = 0.01;
+        across = find(middle + just_outside * (middle - c.middle));
+      }
+  }
+}
+
+int BlockLocator::find(const Vec3& x) const {
   for (int d = 0; d < 3; ++d)
     if (!(extent_.low[d] <= x[d] && x[d] <= extent_.high[d]))
-      return std::nullopt;
+      return none;
   const std::size_t b = bin_number(bin(x));
   for (std::uint32_t n = bin_start_[b]; n < bin_start_[b + 1]; ++n) {
     const Cell& c = cells_[candidates_[n]];
@@ -277,9 +445,41 @@ std::optional<Index3> BlockLocator::cell(const Vec3& x) const {
       continue;
     const Verdict verdict = judge(c, x);
     if (verdict == Verdict::inside || (verdict == Verdict::open && holds(corners(c), x)))
-      return Index3{c.at[0], c.at[1], c.at[2] + blocks_[std::size_t(c.block)].first};
+      return int(candidates_[n]);
   }
-  return std::nullopt;
+  return none;
+}
+
+double BlockLocator::away_from_all(const Vec3& x) const {
+  double away = std::numeric_limits<double>::max();
+  // As far as the bin goes, whose cells are looked at.
+  const Index3 own = bin(x);
+  for (int d = 0; d < 3; ++d) {
+    const double size = extent_.high[d] - extent_.low[d], width = size / bins_[std::size_t(d)];
+    const double low = extent_.low[d] + own[std::size_t(d)] * width;
+    const bool first = own[std::size_t(d)] == 0,
+               last = own[std::size_t(d)] + 1 == bins_[std::size_t(d)];
+    if (!first)
+      away = std::min(away, x[d] - low - rounding * size);
+    if (!last)
+      away = std::min(away, low + width - x[d] - rounding * size);
+  }
+  const std::size_t b = bin_number(own);
+  for (std::uint32_t n = bin_start_[b]; n < bin_start_[b + 1]; ++n) {
+    const Cell& c = cells_[candidates_[n]];
+    const Vec3 from_middle = x - c.middle;
+    double beyond = 0; // a plane with the whole cell behind it
+    for (const Face& f : c.faces)
+      beyond = std::max(beyond, dot(Vec3{f.normal[0], f.normal[1], f.normal[2]}, from_middle) -
+                                    double(f.outer));
+    away = std::min(away, beyond);
+  }
+  return away;
+}
+
+std::optional<Index3> BlockLocator::cell(const Vec3& x) const {
+  const int found = find(x);
+  return found == none ? std::nullopt : std::optional(in_stack(found));
 }
 
 Vec3 BlockLocator::fold(const Vec3& x) const {

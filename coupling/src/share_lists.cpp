@@ -4,6 +4,16 @@
 
 namespace granflux::coupling {
 
+void ShareLists::keep_found(std::size_t particles, std::string_view kernel, long locator) {
+  for (Run& run : runs_)
+    std::swap(run.entries, run.before);
+  if (found_.size() == particles && kernel_ == kernel && locator_ == locator)
+    return;
+  found_.assign(particles, {});
+  kernel_ = kernel;
+  locator_ = locator;
+}
+
 /// Joins what the threads found, cells by their place in the window, and sorts it by cell.
 void ShareLists::join(Placing& all) {
   for (std::size_t p = 0; p + 1 < offset_.size(); ++p)

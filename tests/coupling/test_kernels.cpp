@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include <granflux/cfd/cylinder_grid.hpp>
+#include <granflux/cfd/mesh.hpp>
 #include <granflux/coupling/kernel/kernels.hpp>
 
 #include "sample_lattices.hpp"
@@ -204,6 +206,48 @@ TEST(Kernels, ChosenByName) {
     EXPECT_EQ(std::visit([](const auto& k) { return std::string_view(k.name); }, chosen), name);
   }
   EXPECT_THROW(VoidFractionKernels::make("void_fraction", "none"), ConfigError);
+}
+
+// Cell by cell from the plain search of each point, in the order of the points.
+TEST(Kernels, DividedOnFittedGrids) {
+  cfd::CylinderGrid cylinder;
+  cylinder.radius = 0.5, cylinder.length = 0.8;
+  cylinder.core = 4, cylinder.radial = 3, cylinder.axial = 6;
+  const cfd::Mesh mesh = make_mesh(make_cylinder(cylinder), MPI_COMM_SELF);
+  const BlockLocator blocks(mesh);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> along(-0.5, 0.5);
+  using Shares = std::vector<std::pair<cfd::Index3, double>>;
+  int several = 0, at_walls = 0;
+  for (int p = 0; p < 5000; ++p) {
+    const Vec3 centre{along(random), along(random), 0.4 + 0.8 * along(random)};
+    const double radius = 0.02 + 0.2 * std::abs(along(random));
+    const auto cell = blocks.cell(centre);
+    if (!cell)
+      continue;
+    Shares wanted, found;
+    for (const Vec3& offset : Divided::offsets()) {
+      const auto in = blocks.cell(centre + radius * offset);
+      at_walls += !in;
+      const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const auto& share) {
+        return share.first == in.value_or(*cell);
+      });
+      if (same == wanted.end())
+        wanted.emplace_back(in.value_or(*cell), 1);
+      else
+        ++same->second;
+    }
+    for (auto& share : wanted)
+      share.second /= Divided::points;
+    const double room =
+        Divided{}(blocks, ParticlePlace{centre, radius, *cell},
+                  [&](const cfd::Index3& c, double share) { found.emplace_back(c, share); });
+    EXPECT_EQ(found, wanted);
+    EXPECT_LT(room, 0.5);
+    several += found.size() > 2;
+  }
+  EXPECT_GT(several, 1000);
+  EXPECT_GT(at_walls, 1000);
 }
 
 } // namespace

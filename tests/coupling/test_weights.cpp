@@ -6,6 +6,8 @@
 #include <numeric>
 #include <omp.h>
 
+#include <granflux/cfd/cylinder_grid.hpp>
+#include <granflux/cfd/mesh.hpp>
 #include <granflux/coupling/weights.hpp>
 
 #include "sample_lattices.hpp"
@@ -231,6 +233,81 @@ TEST(Weights, BuildAnew) {
   EXPECT_EQ(weights.window().lo, fresh.window().lo);
   EXPECT_EQ(weights.window().hi, fresh.window().hi);
   EXPECT_EQ(deposit(weights, few.value), deposit(fresh, few.value));
+}
+
+cfd::Mesh drum(int radial) {
+  cfd::CylinderGrid cylinder;
+  cylinder.radius = 0.5, cylinder.length = 0.8;
+  cylinder.core = 4, cylinder.radial = radial, cylinder.axial = 6;
+  cylinder.axial_blocks = 2;
+  cylinder.periodic_axis = true;
+  return make_mesh(make_cylinder(cylinder), MPI_COMM_SELF);
+}
+
+void expect_same_shares(const Weights& kept, const Weights& fresh, const Values& value) {
+  EXPECT_EQ(kept.window().lo, fresh.window().lo);
+  EXPECT_EQ(kept.window().hi, fresh.window().hi);
+  EXPECT_EQ(kept.placed_count(), fresh.placed_count());
+  EXPECT_EQ(kept.outside_count(), fresh.outside_count());
+  EXPECT_EQ(deposit(kept, value), deposit(fresh, value));
+  const Values field = random_field(fresh.window().size());
+  EXPECT_EQ(sample(kept, field), sample(fresh, field));
+}
+
+// Where shares are kept while particles stay near, they are those that are found anew: to the bit.
+TEST(Weights, KeptSharesAreThoseFoundAnew) {
+  const AnyLocator coarse = BlockLocator(drum(3)), fine = BlockLocator(drum(5));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> along(-1, 1);
+  const auto way = [&] { return Vec3{along(random), along(random), along(random)}; };
+  const int threads = omp_get_max_threads();
+  for (const AnyKernel& kernel :
+       {AnyKernel(Divided{}), AnyKernel(Centre{}), AnyKernel(Smoothed{})}) {
+    Cloud cloud;
+    for (int p = 0; p < 500; ++p) {
+      cloud.position.push_back(Vec3{0, 0, 0.4} + 0.4 * way());
+      cloud.radius.push_back(0.01 + 0.03 * p / 500);
+      cloud.value.push_back(along(random));
+    }
+    std::vector<std::uint8_t> coupled(500, 1);
+    Weights kept;
+    const auto build = [&](const AnyLocator& locator) {
+      Weights fresh;
+      kept.build(kernel, locator, cloud.position, cloud.radius, coupled);
+      fresh.build(kernel, locator, cloud.position, cloud.radius, coupled);
+      EXPECT_GT(fresh.placed_count(), 150u);
+      expect_same_shares(kept, fresh, cloud.value);
+    };
+    build(coarse);
+    for (const double step : {0., 1e-5, 1e-4, 1e-3, 1e-2, 1e-1})
+      for (int n = 0; n < 20; ++n) {
+        for (Vec3& x : cloud.position)
+          x += step * way();
+        build(coarse);
+      }
+    std::reverse(cloud.radius.begin(), cloud.radius.end());
+    build(coarse);
+    std::reverse(cloud.position.begin(), cloud.position.end());
+    build(coarse);
+    build(fine);
+    kept.build(Divided{}, LatticeLocator(sample_lattice({true, true, true})), cloud.position,
+               cloud.radius);
+    build(fine);
+    kept.build(Divided{}, fine, cloud.position, cloud.radius);
+    build(fine);
+    for (int p = 0; p < 500; p += 3)
+      coupled[std::size_t(p)] = 0;
+    build(fine);
+    coupled.assign(500, 1);
+    omp_set_num_threads(3);
+    build(fine);
+    omp_set_num_threads(threads);
+    build(fine);
+    for (auto* numbers : {&cloud.radius, &cloud.value})
+      numbers->resize(450);
+    cloud.position.resize(450), coupled.resize(450);
+    build(fine);
+  }
 }
 
 } // namespace

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <omp.h>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <granflux/coupling/counting_sort.hpp>
@@ -44,8 +46,27 @@ private:
     };
     std::vector<Entry> entries;
     Placing placing;
+    std::size_t begin = 0, end = 0; ///< particles
+    std::vector<Entry> before;      ///< entries of the last build
+  };
+  /// The place for which the shares of a particle were found. They are kept while it is near.
+  struct Found {
+    Vec3 centre;
+    double radius = 0;
+    double room = 0; ///< how far it may move; not above 0: its shares are found anew
+    cfd::Index3 cell{};
+    int entries = 0; ///< in Run::before
+    [[nodiscard]] bool serves(const Vec3& x, double r) const {
+      return room > 0 && r == radius && dot(x - centre, x - centre) < room * room;
+    }
   };
 
+  /// What the last build found is kept if it was for as many particles by the same kernel and
+  /// locator.
+  void keep_found(std::size_t particles, std::string_view kernel, long locator);
+  template <class Locator>
+  static std::optional<cfd::Index3> cell_near(const Locator& locator, const Vec3& x,
+                                              const Found& last);
   template <class Kernel, class Locator>
   void find_shares(const Kernel& kernel, const Locator& locator, const ParticlesToPlace& particles,
                    std::span<std::uint8_t> placed);
@@ -61,38 +82,77 @@ private:
   std::vector<std::uint32_t> particle_;
   std::vector<double> cell_share_;
   std::vector<Run> runs_; ///< kept from build to build, so that it allocates once
+  // Of kernels that tell room.
+  std::vector<Found> found_; ///< of each particle
+  std::string_view kernel_;
+  long locator_ = 0; ///< edition
 };
+
+template <class Locator>
+std::optional<cfd::Index3> ShareLists::cell_near(const Locator& locator, const Vec3& x,
+                                                 const Found& last) {
+  if constexpr (requires { locator.cell(x, last.cell); })
+    if (last.entries > 0)
+      return locator.cell(x, last.cell);
+  return locator.cell(x);
+}
 
 /// Each thread finds those of its own run.
 template <class Kernel, class Locator>
 void ShareLists::find_shares(const Kernel& kernel, const Locator& locator,
                              const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
+  constexpr bool keeps = tells_room<Kernel, Locator>;
   const std::size_t count = particles.size();
 #pragma omp parallel
   {
     const int t = omp_get_thread_num(), n = omp_get_num_threads();
     Run& run = runs_[std::size_t(t)];
-    const std::size_t end = run_begin(count, t + 1, n);
-    for (std::size_t p = run_begin(count, t, n); p < end; ++p) {
+    const std::size_t begin = run_begin(count, t, n), end = run_begin(count, t + 1, n);
+    // What was found by another thread lies elsewhere.
+    const bool same_run = keeps && run.begin == begin && run.end == end;
+    run.begin = begin;
+    run.end = end;
+    auto before = run.before.begin(); // entries of the particle in the last build
+    for (std::size_t p = begin; p < end; ++p) {
       placed[p] = 0;
-      if (!particles.takes_part(p))
-        continue;
-      const Vec3 centre = locator.fold(particles.position[p]);
-      const auto cell = locator.cell(centre);
-      if (!cell) {
-        ++run.placing.outside;
-        continue;
+      Found now;
+      [[maybe_unused]] Found last;
+      if constexpr (keeps)
+        if (same_run)
+          last = found_[p];
+      const auto last_entries = before;
+      before += last.entries;
+      const auto add = [&](const cfd::Index3& c, double share) {
+        if (!run.placing.window.contains(c)) [[unlikely]]
+          run.placing.include(c, {c[0] + 1, c[1] + 1, c[2] + 1});
+        run.entries.push_back({c, share});
+        ++now.entries;
+      };
+      if (particles.takes_part(p)) {
+        const Vec3 centre = locator.fold(particles.position[p]);
+        if (last.serves(centre, particles.radius[p])) {
+          for (auto e = last_entries; e != before; ++e)
+            add(e->cell, e->share);
+          now = last;
+          placed[p] = 1;
+        } else if (const auto cell = cell_near(locator, centre, last)) {
+          const ParticlePlace place{centre, particles.radius[p], *cell};
+          if constexpr (keeps) {
+            now.room = kernel(locator, place, add);
+            now.centre = centre;
+            now.radius = place.radius;
+            now.cell = *cell;
+          } else {
+            kernel(locator, place, add);
+          }
+          placed[p] = 1;
+        }
+        run.placing.placed += placed[p];
+        run.placing.outside += 1u - placed[p];
       }
-      placed[p] = 1;
-      ++run.placing.placed;
-      const std::size_t before = run.entries.size();
-      kernel(locator, ParticlePlace{centre, particles.radius[p], *cell},
-             [&](const cfd::Index3& c, double share) {
-               if (!run.placing.window.contains(c)) [[unlikely]]
-                 run.placing.include(c, {c[0] + 1, c[1] + 1, c[2] + 1});
-               run.entries.push_back({c, share});
-             });
-      offset_[p + 1] = run.entries.size() - before;
+      if constexpr (keeps)
+        found_[p] = now;
+      offset_[p + 1] = std::size_t(now.entries);
     }
   }
 }
@@ -102,6 +162,10 @@ Placing ShareLists::build(const Kernel& kernel, const Locator& locator,
                           const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
   offset_.assign(particles.size() + 1, 0);
   runs_.resize(std::size_t(omp_get_max_threads()));
+  if constexpr (tells_room<Kernel, Locator>)
+    keep_found(particles.size(), Kernel::name, locator.edition());
+  else
+    kernel_ = {}; // the runs are of other shares
   for (Run& run : runs_) {
     run.entries.clear();
     run.placing = {};

@@ -11,9 +11,14 @@ struct Centre {
   static constexpr std::string_view name = "centre";
   static constexpr bool smooths = false;
 
-  template <class Locator, class Emit>
-  void operator()(const Locator&, const ParticlePlace& particle, Emit&& emit) const {
+  template <class Emit>
+  void operator()(const LatticeLocator&, const ParticlePlace& particle, Emit&& emit) const {
     emit(particle.cell, 1.0);
+  }
+  template <class Emit>
+  double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
+    emit(particle.cell, 1.0);
+    return blocks.room(particle.cell, particle.centre);
   }
 };
 

@@ -22,9 +22,22 @@ struct Divided {
   static constexpr bool smooths = false;
   static constexpr int points = 29;
 
-  template <class Locator, class Emit>
-  void operator()(const Locator& locator, const ParticlePlace& particle, Emit&& emit) const {
-    if (inside_one_cell(locator, particle)) {
+  template <class Emit>
+  double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
+    const double room = blocks.room(particle.cell, particle.centre) - outermost() * particle.radius;
+    if (room > 0) {
+      emit(particle.cell, 1.0);
+      return room;
+    }
+    const auto found = blocks.cells(point_set(), particle.centre, particle.radius, particle.cell);
+    for (const auto& [cell, count] : found)
+      emit(cell, count / double(points));
+    return found.room;
+  }
+
+  template <class Emit>
+  void operator()(const LatticeLocator& lattice, const ParticlePlace& particle, Emit&& emit) const {
+    if (inside_one_cell(lattice, particle)) {
       emit(particle.cell, 1.0);
       return;
     }
@@ -33,7 +46,7 @@ struct Divided {
     int found = 0;
     for (const Vec3& offset : offsets()) {
       const Vec3 point = particle.centre + particle.radius * offset;
-      const auto cell = find(locator, point, particle.cell).value_or(particle.cell);
+      const auto cell = lattice.cell(point).value_or(particle.cell);
       int slot = 0;
       while (slot < found && cells[std::size_t(slot)] != cell)
         ++slot;
@@ -57,14 +70,22 @@ private:
     return lattice.cell(particle.centre - half) == particle.cell &&
            lattice.cell(particle.centre + half) == particle.cell;
   }
-  static bool inside_one_cell(const BlockLocator& blocks, const ParticlePlace& particle) {
-    return blocks.surely_within(particle.cell, particle.centre, particle.radius);
+
+  static double outermost() {
+    static const double radius = shell_radius(15, points);
+    return radius;
   }
-  static auto find(const LatticeLocator& lattice, const Vec3& x, const cfd::Index3&) {
-    return lattice.cell(x);
-  }
-  static auto find(const BlockLocator& blocks, const Vec3& x, const cfd::Index3& near) {
-    return blocks.cell(x, near);
+  static const BlockLocator::PointSet& point_set() {
+    static const auto set = [] {
+      BlockLocator::PointSet all{.count = points};
+      for (std::size_t k = 0; k < offsets().size(); ++k) {
+        all.x[k] = float(offsets()[k].x);
+        all.y[k] = float(offsets()[k].y);
+        all.z[k] = float(offsets()[k].z);
+      }
+      return all;
+    }();
+    return set;
   }
 
   /// Root mean square radius of the shell between the spheres that hold `inner` and `outer` of the

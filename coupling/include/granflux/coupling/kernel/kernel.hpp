@@ -21,7 +21,8 @@ struct ParticlePlace {
 /// and weight > 0. The weights sum to 1 to round-off. Along directions that are not periodic no
 /// cell outside the domain is emitted. `smooths`: the coupler passes the deposited fields, and the
 /// gas fields it samples, through Smoothing. A kernel that can be called with a BlockLocator too
-/// serves grids that are fitted to bodies.
+/// serves grids that are fitted to bodies. A kernel that returns a number says how far the particle
+/// may move before any of its shares changes [m].
 template <class K>
 concept VoidFractionKernel = std::default_initializable<K> &&
     requires(const K kernel, const LatticeLocator& lattice, const ParticlePlace& particle) {

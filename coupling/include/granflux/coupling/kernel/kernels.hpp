@@ -23,6 +23,15 @@ inline constexpr bool serves = requires(const Kernel kernel, const Locator& loca
   kernel(locator, particle, [](const cfd::Index3&, double) {});
 };
 
+/// Whether it says how far a particle may move with its shares.
+template <class Kernel, class Locator>
+inline constexpr bool tells_room = requires(const Kernel kernel, const Locator& locator,
+                                            const ParticlePlace& particle) {
+  {
+    kernel(locator, particle, [](const cfd::Index3&, double) {})
+    } -> std::same_as<double>;
+};
+
 /// Whether its shares are given by the corners of one cube of cells.
 template <class Kernel, class Locator>
 inline constexpr bool has_corners = requires(const Kernel kernel, const Locator& locator) {

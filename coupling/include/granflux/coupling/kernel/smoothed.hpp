@@ -15,8 +15,9 @@ struct Smoothed : Trilinear {
 
   using Trilinear::operator();
   template <class Emit>
-  void operator()(const BlockLocator&, const ParticlePlace& particle, Emit&& emit) const {
+  double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
     emit(particle.cell, 1.0);
+    return blocks.room(particle.cell, particle.centre);
   }
 };
 
