@@ -120,6 +120,7 @@ void FixHeat::post_create() {
   contacts_ = property("heatContact", doubles(sizeof(ContactHeatRates)), false, false, 0);
   details_ = property("heatDetail", doubles(sizeof(HeatDetails)), false, false, 0);
   walls_ = property("heatWall", doubles(sizeof(WallHeatRates)), false, false, 0);
+  parted_ = property("granflux_parted_heat", 1, true, false, 0);
   near_ = property("heatNear", doubles(sizeof(NearHeatRates)), false, false, 0);
 }
 
@@ -343,7 +344,31 @@ void FixHeat::show_to_gas(coupling::ParticleView& view) {
   view.fixed_temperature = is_held_;
 }
 
+double* FixHeat::parted_heat() {
+  return options_.contacts.friction == particle_subset::FrictionHeat::off ? nullptr
+                                                                          : parted_->vector_atom;
+}
+
+/// What springs of contacts held that had ended when the lists were built: in the step of the
+/// build, or the first one after that of a run's setup.
+void FixHeat::receive_parted_heat() {
+  if (neighbor->lastcall + 1 < update->ntimestep)
+    return;
+  const particle_subset::HeatShown shown = this->shown();
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double power = parted_->vector_atom[i] / update->dt;
+    parted_->vector_atom[i] = 0;
+    heat_flux_->vector_atom[i] += power;
+    sums_.front().friction += power;
+    if (shown.wanted()) {
+      shown.contacts[i].made += power;
+      shown.details[i].friction += power;
+    }
+  }
+}
+
 void FixHeat::step(coupling::HeatState* gas) {
+  receive_parted_heat();
   if (options_.near.any())
     subsets_->add_near_heat(near_law_, heat_of_contacts().arrays);
   const particle_subset::HeatedParticles particles{.temperature = temperature_->vector_atom,

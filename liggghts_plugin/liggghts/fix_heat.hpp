@@ -54,6 +54,7 @@ public:
 
   [[nodiscard]] particle_subset::HeatOfContacts heat_of_contacts() override;
   [[nodiscard]] double reach() const override { return reach_; }
+  [[nodiscard]] double* parted_heat() override;
 
   /// In each run between init() and the first step: the gas brings about the steps of temperature
   /// itself, by step_with_gas().
@@ -73,6 +74,7 @@ private:
   void link_walls();
   void conduct_by_shape();
   void step(coupling::HeatState* gas);
+  void receive_parted_heat();
   void check_time_step(const particle_subset::HeatedParticles& particles) const;
   [[nodiscard]] particle_subset::HeatShown shown() const;
   [[nodiscard]] driver::WarmParticles particles() const;
@@ -89,7 +91,7 @@ private:
   // Kept by LIGGGHTS for each particle.
   LAMMPS_NS::FixPropertyAtom *temperature_ = nullptr, *carry_ = nullptr, *heat_flux_ = nullptr,
                              *source_ = nullptr, *contacts_ = nullptr, *details_ = nullptr,
-                             *walls_ = nullptr, *near_ = nullptr;
+                             *walls_ = nullptr, *near_ = nullptr, *parted_ = nullptr;
   std::vector<std::string> own_properties_;
 
   particle_subset::PairGran* subsets_ = nullptr; // in whose contact loops heat is made, or null:

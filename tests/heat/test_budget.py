@@ -236,7 +236,7 @@ class Insertion(HostTest):
 
 class EnergyOfMotion(HostTest):
     """With all that is dissipated turned into heat, the energy of motion and heat together is kept,
-    to the second order of the time step."""
+    to the second order of the time step, or nearly."""
 
     PAIRS = 25  # which meet at other parts of a time step each
 
@@ -249,7 +249,7 @@ class EnergyOfMotion(HostTest):
                 spheres.append((kind, diameter, density, (x, y + py, z), *motion))
         return spheres
 
-    def error(self, dt, time, spheres, stiffness, measure):
+    def error(self, dt, time, spheres, stiffness, measure, walls):
         self.write("data.spheres", data_file(spheres, (-2e-2,) * 3, (2e-2,) * 3))
         steps = round(time / dt)
         output = self.run_script(
@@ -257,25 +257,26 @@ class EnergyOfMotion(HostTest):
             + "fix rf all property/global coefficientRollingFriction peratomtypepair 2 0.3 0.3 0.3 0.3\n"
             + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 damping on conduction off\n"
             + "compute rot all erotate/sphere\n"
-            + thermo("ke c_rot f_heat[16] f_heat[17]", steps)
-            + f"run {steps}\n"
+            + walls
+            + thermo("ke c_rot f_heat[16] f_heat[17] f_heat[20]", steps)
+            + f"run {steps}\nrun 1\n"  # which receives what springs held when contacts ended
         )
         first, last = thermo_rows(output)[0], thermo_rows(output)[-1]
         lost = first[2] + first[3] - last[2] - last[3]
-        made = last[4] + last[5]
+        made = last[4] + last[5] + last[6]
         self.assertGreater(last[4] if measure == "friction" else last[5], 0.2 * made)
         return (lost - made) / lost
 
-    def errors(self, name, spheres, stiffness, measure):
+    def errors(self, name, spheres, stiffness, measure, walls=""):
         # Apart before and after: no energy is left in springs.
-        errors = [self.error(dt, 1.2e-3, spheres, stiffness, measure) for dt in (4e-6, 2e-6, 1e-6, 5e-7)]
+        errors = [self.error(dt, 1.2e-3, spheres, stiffness, measure, walls) for dt in (4e-6, 2e-6, 1e-6, 5e-7)]
         print(f"{name}: energy not accounted for, of what is lost:", *(f"{e:.2e}" for e in errors))
         return errors
 
-    def check(self, *case):
+    def check(self, *case, least=2e-4, order=1.8):
         errors = self.errors(*case)
-        self.assertLess(abs(errors[-1]), 2e-4)
-        self.assertGreater(math.log2(abs(errors[0] / errors[-1])) / 3, 1.8)
+        self.assertLess(abs(errors[-1]), least)
+        self.assertGreater(math.log2(abs(errors[0] / errors[-1])) / 3, order)
 
     def test_damped_impact(self):
         still = ((0, 0, 0),)
@@ -286,14 +287,37 @@ class EnergyOfMotion(HostTest):
         )
         self.check("damped", spheres, dict(kn=1000, kt=300, gn=5e-3, gt=2e-3, mu=0.2), "damping")
 
-    def test_sliding_impact(self):
-        # Without normal damping: it would end contacts with a tangential spring still strained.
+    def test_dashpots_that_end_contacts(self):
+        # With springs of sliding still strained.
         spheres = self.pairs(
             0.2 * 4e-6,
             (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0.2, 0), (0, 0, 0)),
             (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, -0.1, 0), (0, 0, 50)),
         )
-        self.check("sliding", spheres, dict(kn=1000, kt=300, gn=0, gt=2e-3, mu=0.2), "friction")
+        self.check("sliding, damped", spheres, dict(kn=1000, kt=300, gn=2e-2, mu=0.5), "friction", order=1.5)
+
+    def test_dashpots_that_end_contacts_with_a_wall(self):
+        dt = 4e-6
+        spheres = []
+        for n in range(self.PAIRS):
+            y, z = 5e-3 * (n // 5) - 1e-2, 5e-3 * (n % 5) - 1e-2
+            spheres.append((1, 1e-3, 2000, (0.51e-3 + 0.1 * dt * n / self.PAIRS, y, z), (-0.1, 0.2, 0), (0, 0, 0)))
+        self.check(
+            "sliding, damped, wall",
+            spheres,
+            dict(kn=1000, kt=300, gn=2e-2, mu=0.5),
+            "friction",
+            wall("side", "xplane 0"),
+        )
+
+    def test_sliding_impact(self):
+        # What is left is how a contact turns within a step, of the first order.
+        spheres = self.pairs(
+            0.2 * 4e-6,
+            (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0.2, 0), (0, 0, 0)),
+            (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, -0.1, 0), (0, 0, 50)),
+        )
+        self.check("sliding", spheres, dict(kn=1000, kt=300, gn=0, gt=2e-3, mu=0.2), "friction", least=3e-5, order=1.5)
 
     def test_rolling_friction(self):
         # Spheres that spin against each other as they meet.
@@ -333,10 +357,11 @@ class EnergyOfACloud(HostTest):
             head(dt=dt, kn=self.KN, kt=self.KT, gn=damping, gt=0.4 * damping)
             + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 damping on conduction off\n"
             + "compute rot all erotate/sphere\ncompute springs all pair/gran/local history delta\n"
-            + f"dump a all local {steps} springs c_springs[1] c_springs[2] c_springs[3] c_springs[4]\n"
-            + 'dump_modify a format "%.17g %.17g %.17g %.17g"\n'
             + thermo("ke c_rot f_heat[16] f_heat[17]", steps)
             + f"run {steps}\n"
+            + "dump a all local 1 springs c_springs[1] c_springs[2] c_springs[3] c_springs[4]\n"
+            + 'dump_modify a format "%.17g %.17g %.17g %.17g"\n'
+            + "run 1\n"  # which receives what springs held when contacts ended
         )
         rows = [list(map(float, line.split())) for line in self.read("springs").rsplit("ITEM: ENTRIES", 1)[1].splitlines()[1:]]
         elastic = sum(self.KN / 2 * r[3] ** 2 + self.KT / 2 * (r[0] ** 2 + r[1] ** 2 + r[2] ** 2) for r in rows)
@@ -352,13 +377,14 @@ class EnergyOfACloud(HostTest):
 
     def test_friction_alone(self):
         errors = self.errors("friction", 0)
-        self.assertLess(errors[-1], 4e-4)
-        self.assertGreater(math.log2(errors[0] / errors[-1]) / 2, 1.5)
+        self.assertLess(errors[-1], 1.5e-4)
+        self.assertGreater(math.log2(errors[0] / errors[-1]) / 2, 1.3)
 
     def test_damped(self):
-        # What springs of sliding hold when dashpots end a contact is not booked.
+        # With what springs of sliding hold when dashpots end a contact, 3.2e-3 of what is lost.
         errors = self.errors("damped", 5e-3)
-        self.assertLess(errors[-1], 5e-3)
+        self.assertLess(errors[-1], 8e-4)
+        self.assertGreater(math.log2(errors[0] / errors[-1]) / 2, 0.9)
 
 
 if __name__ == "__main__":

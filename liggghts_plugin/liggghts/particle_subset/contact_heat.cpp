@@ -68,13 +68,22 @@ double ContactHeat::conductance_at_wall(const PairConstants& pair, double radius
 void HeatOfWall::add(int p, int type, int wall_type, double radius, double overlap, double force,
                      const Dissipation& made) const {
   const ContactHeat& law = *contacts.law;
-  const HeatArrays& arrays = contacts.arrays;
   const double conductance =
       temperature ? law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force) : 0;
-  const double conduction = temperature ? conductance * (*temperature - arrays.temperature[p]) : 0;
-  const double share = law.options().wall_share;
-  const double friction = law.friction(made);
-  const double damping = law.options().damping ? made.damping : 0;
+  const double conduction =
+      temperature ? conductance * (*temperature - contacts.arrays.temperature[p]) : 0;
+  give(p, conduction, conductance, law.friction(made), law.options().damping ? made.damping : 0);
+}
+
+void HeatOfWall::add_parted(int p, double power) const {
+  if (contacts.law->options().friction != FrictionHeat::off)
+    give(p, 0, 0, power, 0);
+}
+
+void HeatOfWall::give(int p, double conduction, double conductance, double friction,
+                      double damping) const {
+  const HeatArrays& arrays = contacts.arrays;
+  const double share = contacts.law->options().wall_share;
   const double to_particle = (1 - share) * (friction + damping);
   const double to_wall = share * (friction + damping);
   arrays.rate[p] += conduction + to_particle;

@@ -136,6 +136,12 @@ struct HeatOfWall {
   /// Adds what particle p of a type exchanges with the wall of another.
   void add(int p, int type, int wall_type, double radius, double overlap, double force,
            const Dissipation& made) const;
+  /// Adds the particle's and the wall's share of what is left in the springs of a contact that has
+  /// ended [W].
+  void add_parted(int p, double power) const;
+
+private:
+  void give(int p, double conduction, double conductance, double friction, double damping) const;
 };
 
 } // namespace granflux::particle_subset

@@ -33,6 +33,11 @@ public:
                          const HeatOfContacts* heat = nullptr) const = 0;
   virtual void add_upper(const Particles& particles, ThreadContacts& contacts, Range block,
                          double dt, const HeatOfContacts* heat = nullptr) const = 0;
+  /// Adds to `heat` [J], of owned particles, what the springs of contacts hold that have ended
+  /// since the lists were built: it is lost to motion with the lists. For the particles of one
+  /// thread.
+  virtual void add_parted(const Particles& particles, const ThreadContacts& contacts,
+                          const ContactHeat& law, double* heat) const = 0;
   void add(const Particles& particles, ThreadContacts& contacts, double dt,
            const HeatOfContacts* heat = nullptr) const {
     add_lower(particles, contacts, dt, heat);

@@ -31,6 +31,9 @@ struct ContactForce {
 
 /// One choice of laws, put together by the compiler: an effect that is off leaves no instruction.
 template <class Normal, class Tangential, class Rolling, class Cohesion> struct ContactLaw {
+  using NormalLaw = Normal;
+  using TangentialLaw = Tangential;
+  using RollingLaw = Rolling;
   static constexpr int history = Tangential::history + Rolling::history; ///< doubles a contact
   static constexpr bool has_tangential_history = Tangential::history > 0;
   static constexpr bool has_rolling_history = Rolling::history > 0;

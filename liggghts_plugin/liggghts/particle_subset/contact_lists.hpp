@@ -41,6 +41,27 @@ struct ThreadContacts {
   }
 };
 
+/// Calls visit(i, j, history), i < j, for the pairs of one thread that touched since the build and
+/// no longer do.
+template <class Visit>
+void for_each_parted(const Particles& particles, const ThreadContacts& contacts, int history_size,
+                     Visit&& visit) {
+  const auto along = [&](const ContactRows& rows, auto ordered) {
+    for (int row = 0; row < contacts.own.size(); ++row)
+      for (int e = rows.row_begin(row); e < rows.row_end(row); ++e) {
+        if (!rows.flags[std::size_t(e)])
+          continue;
+        const auto [i, j] = ordered(contacts.own.begin + row, rows.partner[std::size_t(e)]);
+        const Vec3 separation = particles.position[i] - particles.position[j];
+        const double radii = particles.radius[i] + particles.radius[j];
+        if (dot(separation, separation) >= radii * radii)
+          visit(i, j, &rows.history[std::size_t(e) * std::size_t(history_size)]);
+      }
+  };
+  along(contacts.lower, [](int own, int partner) { return std::pair(partner, own); });
+  along(contacts.upper, [](int own, int partner) { return std::pair(own, partner); });
+}
+
 /// What each particle remembers of its contacts while pairs are not in lists: as the host keeps it
 /// across exchange, sorting and restarts.
 struct PartnerHistory {

@@ -287,6 +287,11 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
   if (gap > cutneighmax_)
     return;
   if (gap > 0) {
+    if (makes_heat_ && by_kernel_ &&
+        std::any_of(history, history + dnum(), [](double h) { return h != 0; }))
+      primitive_heat_.add_parted(
+          particle,
+          kernel_->stored_at_parting(particles_, particle, atom_type_wall_, history) / update->dt);
     std::fill_n(history, dnum(), 0.0);
     return;
   }

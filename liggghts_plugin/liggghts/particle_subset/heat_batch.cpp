@@ -10,6 +10,15 @@ namespace granflux::particle_subset {
 
 namespace {
 
+/// Whether both particles of all pairs are own.
+bool all_are(Range own, const ContactBatch& b, int count) {
+  int strangers = 0;
+#pragma omp simd reduction(+ : strangers)
+  for (int k = 0; k < count; ++k)
+    strangers += !own.holds(b.i[k]) | !own.holds(b.j[k]);
+  return strangers == 0;
+}
+
 /// Where nothing is conducted.
 struct NoRadius {
   double operator()(double, const coupling::ContactShape&) const { return 0; }
@@ -73,6 +82,17 @@ void HeatBatch<made>::evaluate(const ContactBatch& batch, int count, Range own) 
 
 template <HeatMade made> void HeatBatch<made>::sum_up(const ContactBatch& b, int count, Range own) {
   double conduction = 0, friction = 0, damping = 0;
+  if (all_are(own, b, count)) { // what one conducts to another adds up to nothing
+#pragma omp simd reduction(+ : friction, damping)
+    for (int k = 0; k < count; ++k) {
+      friction += friction_[k];
+      if constexpr (made == HeatMade::by_any)
+        damping += damping_[k];
+    }
+    sums_.friction += friction;
+    sums_.damping += damping;
+    return;
+  }
 #pragma omp simd reduction(+ : conduction, friction, damping)
   for (int k = 0; k < count; ++k) {
     const double own_i = own.holds(b.i[k]) ? 1 : 0, own_j = own.holds(b.j[k]) ? 1 : 0;

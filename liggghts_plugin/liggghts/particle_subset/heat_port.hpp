@@ -13,6 +13,9 @@ public:
   [[nodiscard]] virtual HeatOfContacts heat_of_contacts() = 0;
   /// Gap up to which particles that do not touch exchange heat: the lists must hold them [m].
   [[nodiscard]] virtual double reach() const = 0;
+  /// Of owned particles [J]: what is added to it is received in the next step. Null where friction
+  /// makes no heat.
+  [[nodiscard]] virtual double* parted_heat() = 0;
 
 protected:
   ~HeatPort() = default;

@@ -9,6 +9,7 @@
 #include "choices.hpp"
 #include "contact_forces.hpp"
 #include "contact_kernel.hpp"
+#include "stored_at_parting.hpp"
 
 // The kernels of one normal law with all laws that may go with it. A normal law has a source file
 // of its own, so that the compiler works on them side by side.
@@ -35,6 +36,25 @@ public:
   void add_upper(const Particles& particles, ThreadContacts& contacts, Range block, double dt,
                  const HeatOfContacts* heat) const override {
     with_forces(particles, contacts, dt, heat, [&](auto& forces) { forces.add_upper(block); });
+  }
+
+  void add_parted(const Particles& particles, const ThreadContacts& contacts,
+                  const ContactHeat& law, double* heat) const override {
+    if constexpr (Law::history > 0) {
+      const auto add = [&](int i, int j, const double* history) {
+        const double ri = particles.radius[i], rj = particles.radius[j];
+        const int type_i = particles.type[i], type_j = particles.type[j];
+        const auto& k = constants_[std::size_t((type_i - 1) * types_ + type_j - 1)];
+        const double energy =
+            stored_at_parting<Law>(k, ri * rj / (ri + rj), particles.reduced_mass(i, j), history);
+        const double share = law.pair(type_i, type_j).share;
+        if (contacts.own.holds(i))
+          heat[i] += share * energy;
+        if (contacts.own.holds(j))
+          heat[j] += (1 - share) * energy;
+      };
+      for_each_parted(particles, contacts, Law::history, add);
+    }
   }
 
 private:

@@ -310,6 +310,13 @@ void PairGran::add_near_heat(const NearHeat& law, const HeatArrays& arrays) {
 }
 
 void PairGran::store_history(PartnerHistory kept) {
+  if (double* heat = heat_ ? heat_->parted_heat() : nullptr) {
+    const Particles all = particles();
+    const ContactHeat& law = *heat_->heat_of_contacts().law;
+#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
+    for (int thread = 0; thread < lists_.subset().threads(); ++thread)
+      kernel_->add_parted(all, lists_.of(thread), law, heat);
+  }
   lists_.store(particles(), kept);
 }
 

@@ -21,6 +21,15 @@ struct Particles {
   int frozen_group = 0;  ///< bit of the particles that count as of infinite mass, or 0
   Vec3* force = nullptr; ///< of owned particles: added to
   Vec3* torque = nullptr;
+
+  /// m_i m_j / (m_i + m_j); the other's mass where one is frozen.
+  [[nodiscard]] double reduced_mass(int i, int j) const {
+    if (frozen_group && (groups[j] & frozen_group))
+      return mass[i];
+    if (frozen_group && (groups[i] & frozen_group))
+      return mass[j];
+    return mass[i] * mass[j] / (mass[i] + mass[j]);
+  }
 };
 
 } // namespace granflux::particle_subset

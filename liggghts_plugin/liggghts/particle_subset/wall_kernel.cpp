@@ -10,6 +10,7 @@
 #include "law/hertz_stiffness.hpp"
 #include "law/hooke.hpp"
 #include "law/hooke_stiffness.hpp"
+#include "stored_at_parting.hpp"
 #include "wall_law.hpp"
 
 namespace granflux::particle_subset {
@@ -38,6 +39,12 @@ public:
       const int i = touch.particle;
       heat.add(i, p.type[i], wall_type, p.radius[i], -touch.gap, f.pressing, f.heat);
     });
+  }
+
+  [[nodiscard]] double stored_at_parting(const Particles& p, int i, int wall_type,
+                                         const double* history) const override {
+    const auto& k = constants_[std::size_t((p.type[i] - 1) * types_ + wall_type - 1)];
+    return particle_subset::stored_at_parting<Law>(k, p.radius[i], p.mass[i], history);
   }
 
 private:

@@ -34,7 +34,10 @@ public:
   /// Adds forces and torques to the particles, in the order of `touches`.
   virtual void add(const Particles& particles, std::span<WallTouch> touches, int wall_type,
                    double dt) const = 0;
-  /// The same, and the heat exchanged with this wall.
+  /// What the springs of a contact with the wall hold when it ends [J].
+  [[nodiscard]] virtual double stored_at_parting(const Particles& particles, int particle,
+                                                 int wall_type, const double* history) const = 0;
+  /// The same as add(), and the heat exchanged with this wall.
   virtual void add_with_heat(const Particles& particles, std::span<WallTouch> touches,
                              int wall_type, double dt, const HeatOfWall& heat) const = 0;
 };

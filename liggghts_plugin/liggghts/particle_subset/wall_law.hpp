@@ -18,6 +18,9 @@ struct TouchedWall {
 
 /// The laws of a contact with a wall: a sphere of infinite radius and mass that does not spin.
 template <class Normal, class Tangential, class Rolling, class Cohesion> struct WallLaw {
+  using NormalLaw = Normal;
+  using TangentialLaw = Tangential;
+  using RollingLaw = Rolling;
   static constexpr int history = Tangential::history + Rolling::history; ///< doubles a contact
   static constexpr int rolling_offset = Tangential::history;
   static constexpr bool has_tangential_history = Tangential::history > 0;

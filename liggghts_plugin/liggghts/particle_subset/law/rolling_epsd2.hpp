@@ -42,6 +42,12 @@ struct RollingEpsd2 {
     return {
         .on_j = old, .sliding = stiffness > 0 ? lost / (stiffness * dt) : 0.0, .against_spin = {}};
   }
+
+  /// What the spring holds, whose torque the history is [J].
+  static double stored(double stiffness, double radius, const double* torque) {
+    const Vec3 t{torque[0], torque[1], torque[2]};
+    return stiffness > 0 ? 0.5 * dot(t, t) / (stiffness * radius * radius) : 0.0;
+  }
 };
 
 } // namespace granflux::particle_subset

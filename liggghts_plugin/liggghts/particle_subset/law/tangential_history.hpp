@@ -46,6 +46,12 @@ struct TangentialHistory {
     on_i.heat.damping = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
     return on_i;
   }
+
+  /// What the spring holds [J].
+  static double stored(double stiffness, double /*radius*/, const double* elongation) {
+    const Vec3 s{elongation[0], elongation[1], elongation[2]};
+    return 0.5 * stiffness * dot(s, s);
+  }
 };
 
 } // namespace granflux::particle_subset
