@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Heat between particles and gas in whole runs."""
 
+import math
 import unittest
 
 from host import CASE, HostTest, bed, bed_from, couple, last_snapshot, thermo_rows
@@ -58,6 +59,16 @@ class Gas(HostTest):
                     self.assertLess(residual, 1e-10)
                 self.assertLess(abs(last[9]), 1e-12 * last[10])
                 self.assertIn("residual of heat handed over", output)
+
+    def test_lumped_cooling(self):
+        """In gas of so great a capacity that it stays at 300 K: T - 300 falls as exp(-h A t / (m c))."""
+        coefficient, density, capacity, steps, dt = 50, 1000, 0.5, 400, 1e-5
+        case = warm_case(f"heat_transfer_coefficient = {coefficient}").replace("heat_capacity = 1000", "heat_capacity = 1e12")
+        _, atoms, _ = self.run_bed(case, "friction off conduction off damping off", steps=steps)
+        for mass, temperature, _ in atoms.values():
+            diameter = (6 * mass / (math.pi * density)) ** (1 / 3)
+            rate = coefficient * math.pi * diameter**2 / (mass * capacity)
+            self.assertAlmostEqual(temperature, 300 + 100 * math.exp(-rate * steps * dt), delta=1e-6)
 
     def test_heat_that_leaves_the_particles_is_that_of_the_gas(self):
         # Closed box of gas (nothing flows in): what particles lose is what the gas gains.
