@@ -14,7 +14,7 @@ MASS = DENSITY * volume(DIAMETER)
 RELAXATION = MASS / STOKES  # s; of the temperature nearly the same
 SIDE, NUMBER = 0.8e-3, 8
 LOW, HIGH = (0, 0, 0), (SIDE,) * 3
-SPEED = (2e-5, -1e-5, 3e-5)
+SPEED = (2e-6, -1e-6, 3e-6)  # m/s: less than a radius in the longest step
 CASE = box(HIGH, (4, 4, 4), AIR)
 
 
