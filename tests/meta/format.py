@@ -13,18 +13,21 @@ from source_tree import cpp_files, report
 
 
 def faults_of(root, clang_format):
-    faults = []
-    for path in cpp_files(root):
-        done = subprocess.run(
-            [clang_format, "--style=file", "--dry-run", "-Werror", str(path)],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        if done.returncode != 0:
-            lines = done.stderr.splitlines()
-            faults.append(lines[0] if lines else f"{path}: exit code {done.returncode}")
-    return faults
+    files = [str(path) for path in cpp_files(root)]
+    done = subprocess.run(
+        [clang_format, "--style=file", "--dry-run", "-Werror", *files],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    faults = {}  # the first of each file
+    for line in done.stderr.splitlines():
+        path, _, rest = line.partition(":")
+        if path in files:
+            faults.setdefault(path, line)
+    if done.returncode != 0 and not faults:
+        return [f"clang-format: exit code {done.returncode}: {done.stderr}"]
+    return list(faults.values())
 
 
 if __name__ == "__main__":
