@@ -31,9 +31,13 @@ def quantity_figure(study, errors, quantity):
         _curve(axis, index, knob, points, lowest)
     base = setting_of(study, {})
     if errors.right_settings(study.knobs).get(base) != 1.0 or quantity.right is not None:
-        _dots(axis, [(errors.measured[base].cost, errors.of(base, quantity).size)], lowest, "black", "*", "base")
+        _dots(axis, [(errors.measured[base].cost, errors.of(base, quantity).size)], lowest, "black", "*", "base, all knobs")
     else:
         axis.axvline(errors.measured[base].cost, color="0.6", linestyle=":", linewidth=1, label="base, compared with")
+    if any(y <= 100 * lowest * 1.001 for line in axis.lines for y in _heights(line)):
+        axis.axhline(100 * lowest, color="0.6", linestyle=":", linewidth=1, zorder=0)
+        axis.text(0.005, 100 * lowest, "0, or less than can be shown", transform=axis.get_yaxis_transform(), fontsize=7,
+                  color="0.4", va="bottom")
     axis.set_ylabel(f"error of {quantity.name}, %")
     return _finished(figure, axis)
 
@@ -73,9 +77,9 @@ def _axes():
 
 
 def _lowest(errors):
-    """Where errors of 0 are drawn: a third of the least other one, but not below a millionth of the largest."""
+    """The line on which an error of 0 is drawn, and any too small to tell: at least four decades below the largest."""
     sizes = [error.bound for error in errors if error.bound > 0] + [error.size for error in errors if error.size > 0]
-    return max(min(sizes) / 3, max(sizes) * 1e-6) if sizes else 1e-6
+    return max(min(sizes) / 3, max(sizes) * 1e-4) if sizes else 1e-6
 
 
 def _curve(axis, index, knob, points, lowest):
@@ -83,7 +87,8 @@ def _curve(axis, index, knob, points, lowest):
     cost = [c for c, _, _ in points]
     size = [100 * max(e.size, lowest) for _, e, _ in points]
     reach = [100 * CERTAIN * e.chance for _, e, _ in points]
-    axis.plot(cost, size, color=colour, linewidth=1.2, marker=MARKERS[index % 8], markersize=0, label="_")
+    line = [y if e.size > 0 else float("nan") for y, (_, e, _) in zip(size, points)]  # not to what it is compared with
+    axis.plot(cost, line, color=colour, linewidth=1.2, label="_")
     axis.errorbar(cost, size, yerr=[[min(r, s - 100 * lowest / 2) for r, s in zip(reach, size)], reach], fmt="none",
                   ecolor=colour, elinewidth=0.8, capsize=2, alpha=0.7)
     for told in (True, False):
@@ -113,6 +118,10 @@ def _finished(figure, axis):
     _thin_out(figure, axis)
     axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
     return figure
+
+
+def _heights(line):
+    return [float(y) for y in line.get_ydata()]
 
 
 def _thin_out(figure, axis):
