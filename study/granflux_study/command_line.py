@@ -5,6 +5,7 @@
 import argparse
 import fcntl
 import os
+import signal
 import sys
 import time
 from pathlib import Path
@@ -46,6 +47,8 @@ def parser():
 
 def main(words, out=None):
     out = out or sys.stdout
+    for asked_to_end in (signal.SIGINT, signal.SIGTERM):  # also where a shell has set them aside
+        signal.signal(asked_to_end, _stop)
     try:
         return run(parser().parse_args(words), lambda line: print(line, file=out, flush=True))
     except BadInput as problem:
@@ -57,6 +60,10 @@ def main(words, out=None):
     except KeyboardInterrupt:
         print("granflux_study: stopped; the runs that are complete are kept, the same command goes on", file=sys.stderr)
         return STOPPED
+
+
+def _stop(_signal, _frame):
+    raise KeyboardInterrupt
 
 
 def run(options, say):

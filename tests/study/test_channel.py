@@ -9,6 +9,7 @@ import csv
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -64,6 +65,21 @@ class Channel(unittest.TestCase):
         self.assertEqual(page.count("<svg"), 2)
         self.assertEqual(re.findall(r'(?:src|href)="(?!#)[^"]*"', page), [], "nothing outside the page")
         self.assertTrue((self.case / "results/figures/front.png").stat().st_size > 1000)
+
+    def test_a_study_that_is_stopped_goes_on(self):
+        with subprocess.Popen([PROGRAM, self.case, "--jobs", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
+            while not process.stdout.readline().startswith("[1/"):
+                pass
+            process.send_signal(signal.SIGTERM)
+            _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("the runs that are complete are kept", errors)
+        before = self.runs()
+        self.assertGreaterEqual(len(before), 1)
+        self.assertEqual(self.study().returncode, 0)
+        self.assertEqual({path: time for path, time in self.runs().items() if path in before}, before)
+        self.assertEqual(list((self.case / "results/runs").glob("*/*.part")), [])
 
     def test_a_level_that_fails_is_told_and_left_out(self):
         file = self.case / "study.toml"
