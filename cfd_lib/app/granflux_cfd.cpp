@@ -365,6 +365,8 @@ void set_threads(int threads) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  std::signal(SIGUSR2, ask_to_stop); // what mpirun hands on
+  std::signal(SIGXFSZ, SIG_IGN);     // a file that may not grow is an error of its write
   int provided = 0, rank = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -15,7 +15,6 @@ namespace granflux::cfd {
 
 namespace {
 
-constexpr std::array<char, 16> magic{"granflux record"};
 constexpr std::uint64_t format = 0x0102030400000002; // the last is its number
 
 std::array<char, 16> padded(std::string_view text) {
@@ -23,6 +22,8 @@ std::array<char, 16> padded(std::string_view text) {
   std::ranges::copy(text.substr(0, out.size() - 1), out.begin());
   return out;
 }
+
+const std::array<char, 16> magic = padded(record_magic);
 
 std::uint64_t checksum_of(const RecordHeading& heading) {
   Checksum sum;

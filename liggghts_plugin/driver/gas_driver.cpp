@@ -121,6 +121,8 @@ void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
   });
   begin_run(steps);
   clock_.set_time_step(dt);
+  if (host.forces_come_back())
+    return; // those of the last step, and its impulses are in the books
 
   // The last run ended, or its restart file was written, with a force whose second half the
   // integrator never applied: the host has just computed all forces anew.
@@ -201,8 +203,10 @@ template <class Work> void GasDriver::explaining(Host& host, long step, Work&& w
     work();
   } catch (const NumericalError& error) {
     warn_of_limits(host);
-    throw NumericalError(
-        fmt::format("step {}: {}; {}", step, error.what(), stable_->likely_cause()));
+    const std::optional<GoodCheckpoint> last = host.last_checkpoint();
+    throw NumericalError(fmt::format(
+        "step {}: {}; {}{}", step, error.what(), stable_->likely_cause(),
+        last ? fmt::format("; last checkpoint: {} of step {}", last->file, last->step) : ""));
   }
 }
 

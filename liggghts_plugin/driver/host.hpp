@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <granflux/coupling/particle_view.hpp>
 
+#include "checkpointer.hpp"
 #include "contact_time.hpp"
 #include "scene.hpp"
 
@@ -32,6 +34,12 @@ public:
   /// Where the gas has a temperature: the step of those of the particles. Returns the heat that
   /// this rank's particles took from the gas [J].
   virtual double step_temperatures() = 0;
+
+  /// A checkpoint brings the forces of the last step, fluid forces among them, and puts them in
+  /// place behind the set-up.
+  virtual bool forces_come_back() = 0;
+  /// Nothing where the run has written none.
+  virtual std::optional<GoodCheckpoint> last_checkpoint() = 0;
 
   /// To screen and log, once for all ranks.
   virtual void say(const std::string& text) = 0;

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
@@ -16,6 +17,8 @@
 
 #include <granflux/cfd/checksum.hpp>
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/state_record.hpp>
+#include <granflux/coupling/throw_together.hpp>
 
 #include "checkpoint_options.hpp"
 
@@ -23,13 +26,48 @@ namespace granflux::driver {
 
 namespace {
 
+constexpr std::array<char, 16> seal_magic{"granflux sealed"};
+
 struct Seal {
-  std::array<char, 16> magic{"granflux sealed"};
+  std::array<char, 16> magic = seal_magic;
   std::uint64_t length = 0, checksum = 0;
 };
 
 /// LAMMPS looks for words of its own at the very end of the file: they are put there again.
 constexpr std::size_t tail = 32;
+
+/// The gas, in a file of the host that breaks off within it.
+bool has_torn_record(std::string_view bytes) {
+  const std::size_t start = bytes.find(cfd::record_magic);
+  if (start == std::string_view::npos)
+    return false;
+  const std::string_view rest = bytes.substr(start);
+  return rest.size() < sizeof(cfd::RecordHeading) ||
+         cfd::RecordReader::bytes({rest.data(), rest.size()}) > rest.size();
+}
+
+/// In words; empty where nothing is wrong, or where it never was sealed: a host's own file.
+std::string fault_of_sealed(const std::string& path) {
+  const cfd::MappedFile file(path);
+  const std::string_view bytes(file.data(), file.size());
+  const std::string_view magic(seal_magic.data(), seal_magic.size());
+  Seal seal;
+  if (bytes.size() >= sizeof seal + tail)
+    std::memcpy(&seal, bytes.data() + bytes.size() - tail - sizeof seal, sizeof seal);
+  if (bytes.size() < sizeof seal + tail ||
+      std::string_view(seal.magic.data(), seal.magic.size()) != magic) {
+    // Checkpoints name the fix that wrote them, behind the gas.
+    const bool ours = bytes.find(checkpoint_style) != std::string_view::npos ||
+                      bytes.rfind(magic) != std::string_view::npos || has_torn_record(bytes);
+    return ours ? "it is incomplete: the end is missing" : "";
+  }
+  if (seal.length != bytes.size() - sizeof seal - tail)
+    return fmt::format("it is {} bytes long and should be {}", bytes.size(),
+                       seal.length + sizeof seal + tail);
+  cfd::Checksum sum;
+  sum.add(bytes.data(), seal.length);
+  return sum.value() == seal.checksum ? "" : "it is damaged: its checksum is another";
+}
 
 } // namespace
 
@@ -81,26 +119,19 @@ bool SealedFile::finish() {
   return file_.finish();
 }
 
-std::string fault_of_sealed(const std::string& path) {
-  const cfd::MappedFile file(path);
-  const std::string_view bytes(file.data(), file.size());
-  const std::string_view magic(Seal{}.magic.data(), Seal{}.magic.size());
-  Seal seal;
-  if (bytes.size() >= sizeof seal + tail)
-    std::memcpy(&seal, bytes.data() + bytes.size() - tail - sizeof seal, sizeof seal);
-  if (bytes.size() < sizeof seal + tail ||
-      std::string_view(seal.magic.data(), seal.magic.size()) != magic) {
-    // Checkpoints name the fix that wrote them near their start.
-    const bool ours = bytes.find(checkpoint_style) != std::string_view::npos ||
-                      bytes.rfind(magic) != std::string_view::npos;
-    return ours ? "it is incomplete: the end is missing" : "";
-  }
-  if (seal.length != bytes.size() - sizeof seal - tail)
-    return fmt::format("it is {} bytes long and should be {}", bytes.size(),
-                       seal.length + sizeof seal + tail);
-  cfd::Checksum sum;
-  sum.add(bytes.data(), seal.length);
-  return sum.value() == seal.checksum ? "" : "it is damaged: its checksum is another";
+void check_restart_file(const std::string& path, MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string fault;
+  if (rank == 0 && std::filesystem::exists(path)) // else the host says so, or has a pattern
+    try {
+      fault = fault_of_sealed(path);
+    } catch (const ConfigError& e) {
+      fault = e.what();
+    }
+  if (!fault.empty())
+    fault = fmt::format("checkpoint {}: {}: use an earlier one", path, fault);
+  coupling::throw_together<ConfigError>(comm, fault);
 }
 
 } // namespace granflux::driver

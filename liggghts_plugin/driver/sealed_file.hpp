@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <mpi.h>
 #include <string>
 #include <thread>
 
@@ -36,8 +37,8 @@ private:
   std::thread reader_;
 };
 
-/// What is wrong with a file that was sealed, in words; empty where nothing is, or where it never
-/// was sealed: a host's own restart file.
-std::string fault_of_sealed(const std::string& path);
+/// Before a host reads a restart file: throws ConfigError on all ranks where it is a checkpoint
+/// that is torn or damaged. Of files that never were sealed the host has to tell. Collective.
+void check_restart_file(const std::string& path, MPI_Comm comm);
 
 } // namespace granflux::driver

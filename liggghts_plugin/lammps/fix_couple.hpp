@@ -24,6 +24,8 @@ public:
   FixCouple(const FixCouple&) = delete;
   FixCouple& operator=(const FixCouple&) = delete;
 
+  [[nodiscard]] const driver::GasDriver& gas() const { return *gas_; }
+
   int setmask() override;
   void init() override;
   void setup(int) override;

@@ -3,13 +3,18 @@
 
 #include "fix_styles.hpp"
 
+#include "fix_checkpoint.hpp"
 #include "fix_couple.hpp"
 #include "fix_heat.hpp"
 
 namespace granflux::lammps {
 
+LAMMPS_NS::Fix* create_checkpoint(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
+  return new FixCheckpoint(lammps, narg, arg); // owned by Modify
+}
+
 LAMMPS_NS::Fix* create_couple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
-  return new FixCouple(lammps, narg, arg); // owned by Modify
+  return new FixCouple(lammps, narg, arg);
 }
 
 LAMMPS_NS::Fix* create_heat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {

@@ -15,11 +15,13 @@ struct FixStyle {
   LAMMPS_NS::Fix* (*create)(LAMMPS_NS::LAMMPS*, int narg, char** arg);
 };
 
+LAMMPS_NS::Fix* create_checkpoint(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 LAMMPS_NS::Fix* create_couple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 LAMMPS_NS::Fix* create_heat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
 /// The styles of GranFlux.
-inline constexpr FixStyle fix_styles[] = {{"granflux/couple", create_couple},
+inline constexpr FixStyle fix_styles[] = {{"granflux/checkpoint", create_checkpoint},
+                                          {"granflux/couple", create_couple},
                                           {"granflux/heat", create_heat}};
 
 } // namespace granflux::lammps

@@ -14,6 +14,7 @@
 #include <lammps/modify.h>
 
 #include "contact_times.hpp"
+#include "fix_checkpoint.hpp"
 #include "fix_heat.hpp"
 #include "scene.hpp"
 
@@ -81,6 +82,23 @@ double HostView::step_temperatures() {
 void HostView::clear_frozen_forces() {
   const auto n = std::size_t(atom->nlocal);
   groups_.clear_frozen_forces({atom->mask, n}, rows<Vec3>(atom->f, n));
+}
+
+const FixCheckpoint* HostView::checkpoint() const {
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const auto* found = dynamic_cast<const FixCheckpoint*>(modify->fix[i]))
+      return found;
+  return nullptr;
+}
+
+bool HostView::forces_come_back() {
+  const FixCheckpoint* fix = checkpoint();
+  return fix && fix->brings_forces();
+}
+
+std::optional<driver::GoodCheckpoint> HostView::last_checkpoint() {
+  const FixCheckpoint* fix = checkpoint();
+  return fix ? fix->point().last() : std::nullopt;
 }
 
 void HostView::say(const std::string& text) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace granflux::lammps {
 
 using driver::ParticleRows;
 
+class FixCheckpoint;
 class FixHeat;
 
 /// LAMMPS as the gas sees it. Positions, velocities and forces are LAMMPS' own arrays; the fluid
@@ -41,9 +43,12 @@ public:
   coupling::ParticleView particles(bool with_id) override;
   void clear_frozen_forces() override;
   double step_temperatures() override;
+  bool forces_come_back() override;
+  std::optional<driver::GoodCheckpoint> last_checkpoint() override;
   void say(const std::string& text) override;
 
 private:
+  [[nodiscard]] const FixCheckpoint* checkpoint() const;
   [[nodiscard]] std::span<coupling::HeatState> heat_states();
 
   ParticleRows& fluid_;

@@ -3,6 +3,7 @@
 //
 // LAMMPS with the fixes of GranFlux: takes every option of `lmp` and the same scripts.
 
+#include <csignal>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -64,6 +65,7 @@ int main(int argc, char** argv) {
     print_version();
     return 0;
   }
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of its write
   MPI_Init(&argc, &argv);
   try {
     pass_on_threads(granflux::driver::take_threads(argc, argv));

@@ -22,6 +22,8 @@ class FixCouple : public LAMMPS_NS::Fix {
 public:
   FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
+  [[nodiscard]] const driver::GasDriver& gas() const { return *gas_; }
+
   int setmask() override;
   void post_create() override;
   void pre_delete(bool unfix) override;

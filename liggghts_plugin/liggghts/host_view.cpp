@@ -15,6 +15,7 @@
 #include <liggghts/modify.h>
 
 #include "contact_times.hpp"
+#include "fix_checkpoint.hpp"
 #include "fix_heat.hpp"
 #include "scene.hpp"
 
@@ -84,6 +85,23 @@ void HostView::clear_frozen_forces() {
 
 double HostView::step_temperatures() {
   return heat_->step_with_gas(heat_states());
+}
+
+const FixCheckpoint* HostView::checkpoint() const {
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const auto* found = dynamic_cast<const FixCheckpoint*>(modify->fix[i]))
+      return found;
+  return nullptr;
+}
+
+bool HostView::forces_come_back() {
+  const FixCheckpoint* fix = checkpoint();
+  return fix && fix->brings_forces();
+}
+
+std::optional<driver::GoodCheckpoint> HostView::last_checkpoint() {
+  const FixCheckpoint* fix = checkpoint();
+  return fix ? fix->point().last() : std::nullopt;
 }
 
 void HostView::say(const std::string& text) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ class FixPropertyAtom;
 
 namespace granflux::liggghts {
 
+class FixCheckpoint;
 class FixHeat;
 
 /// LIGGGHTS as the gas sees it. Positions, velocities and forces are LIGGGHTS' own arrays; the
@@ -42,9 +44,12 @@ public:
   coupling::ParticleView particles(bool with_id) override;
   void clear_frozen_forces() override;
   double step_temperatures() override;
+  bool forces_come_back() override;
+  std::optional<driver::GoodCheckpoint> last_checkpoint() override;
   void say(const std::string& text) override;
 
 private:
+  [[nodiscard]] const FixCheckpoint* checkpoint() const;
   [[nodiscard]] coupling::HeatState* heat_states() const;
 
   LAMMPS_NS::FixPropertyAtom& fluid_;

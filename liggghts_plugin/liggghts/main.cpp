@@ -46,8 +46,10 @@ void check_host(LAMMPS_NS::LAMMPS& lammps) {
                                  .c_str());
 }
 
-/// Ctrl-C, SIGTERM and SIGUSR1 do what they do in the stock program: end the run in order.
+/// Ctrl-C, SIGTERM and SIGUSR1 do what they do in the stock program, end the run in order, unless a
+/// fix granflux/checkpoint takes them.
 void install_signal_handlers() {
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of its write
   std::signal(SIGINT, LAMMPS_NS::SignalHandler::int_handler);
   std::signal(SIGTERM, LAMMPS_NS::SignalHandler::int_handler);
   std::signal(SIGUSR1, LAMMPS_NS::SignalHandler::usr1_handler);

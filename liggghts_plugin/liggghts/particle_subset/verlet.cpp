@@ -3,6 +3,7 @@
 
 #include "verlet.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
@@ -27,6 +28,7 @@
 #include "fix_nve_sphere.hpp"
 #include "neighbor.hpp"
 #include "pair_gran.hpp"
+#include "rare_look.hpp"
 #include "team.hpp"
 #include "work_times.hpp"
 
@@ -51,7 +53,7 @@ bool is_wall(const LAMMPS_NS::Fix& fix) {
 bool only_own_fixes_at(const LAMMPS_NS::Modify& modify, int stages) {
   for (int i = 0; i < modify.nfix; ++i)
     if ((modify.fmask[i] & stages) && !dynamic_cast<FixNveSphere*>(modify.fix[i]) &&
-        !moves_meshes_only(*modify.fix[i]))
+        !dynamic_cast<RareLook*>(modify.fix[i]) && !moves_meshes_only(*modify.fix[i]))
       return false;
   return true;
 }
@@ -67,6 +69,14 @@ bool look_at_no_forces(const LAMMPS_NS::Modify& modify) {
       return false;
   }
   return true;
+}
+
+std::vector<const RareLook*> rare_looks(const LAMMPS_NS::Modify& modify) {
+  std::vector<const RareLook*> found;
+  for (int i = 0; i < modify.nfix; ++i)
+    if (const auto* look = dynamic_cast<const RareLook*>(modify.fix[i]))
+      found.push_back(look);
+  return found;
 }
 
 bool any_box_change(const LAMMPS_NS::Modify& modify) {
@@ -162,6 +172,7 @@ void Verlet::run(int steps) {
   if (auto* own = dynamic_cast<Neighbor*>(neighbor))
     own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
   may_owe_ = fixes_that_may_owe(*modify);
+  rare_looks_ = rare_looks(*modify);
   fixes_before_forces_look_at_none_ = look_at_no_forces(*modify);
   load_ = {};
   WorkTimes& times = work_times();
@@ -220,7 +231,7 @@ void Verlet::run_steps(int steps) {
         const Lap lap(times.integration);
         if (modify->n_pre_final_integrate)
           modify->pre_final_integrate();
-        final_integrate(i + 1 == steps || now == output->next);
+        final_integrate(i + 1 == steps || now == output->next || looked_at(now));
       }
       times.integration -= times.gas - gas_before;
     }
@@ -242,6 +253,11 @@ void Verlet::run_steps(int steps) {
       return;
     }
   }
+}
+
+bool Verlet::looked_at(bigint step) const {
+  return std::ranges::any_of(rare_looks_,
+                             [&](const RareLook* look) { return look->looks_at(long(step)); });
 }
 
 bool Verlet::lists_have_aged() {

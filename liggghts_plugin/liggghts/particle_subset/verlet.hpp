@@ -15,6 +15,7 @@ namespace granflux::particle_subset {
 
 class FixNveSphere;
 class PairGran;
+class RareLook;
 
 /// LIGGGHTS' time step: the calls to fixes, pair style, communication and output in the order and
 /// under the conditions of run_style verlet. Forces are cleared by the thread that owns them, and
@@ -35,12 +36,14 @@ private:
   bool add_part(OwnWork* part, double& seconds, auto&& otherwise);
   void finish_team();
   [[nodiscard]] bool lists_have_aged();
+  [[nodiscard]] bool looked_at(LAMMPS_NS::bigint step) const;
   void report();
   void final_integrate(bool velocities_seen);
 
   bool set_up_ = false;                // setup() was called since the last run
   std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
   bool owed_ = false;
+  std::vector<const RareLook*> rare_looks_;
   bool fixes_before_forces_look_at_none_ = false;
   SpatialOrder order_;
   WorkLoad load_; // sums over the steps of a run

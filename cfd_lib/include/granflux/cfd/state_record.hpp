@@ -13,6 +13,8 @@
 
 namespace granflux::cfd {
 
+inline constexpr std::string_view record_magic = "granflux record";
+
 /// A record is what is kept of a run: numbers behind a heading (what it is, format, how many
 /// numbers, checksum of the heading) and before a checksum of them all. Torn, damaged and foreign
 /// ones are told apart. Words of 8 bytes in the order of this machine.

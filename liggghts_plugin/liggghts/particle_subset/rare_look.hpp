@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The GranFlux developers
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+namespace granflux::particle_subset {
+
+/// A fix that is called at the end of every step, but looks at particles in few of them: the
+/// others may leave the second half of their motion to the next step.
+class RareLook {
+public:
+  virtual ~RareLook() = default;
+  [[nodiscard]] virtual bool looks_at(long step) const = 0;
+};
+
+} // namespace granflux::particle_subset
