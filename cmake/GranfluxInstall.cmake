@@ -29,7 +29,8 @@ install(FILES "${CMAKE_BINARY_DIR}/GranFluxConfig.cmake"
 
 install(FILES README.md CHANGELOG.md DESTINATION "${granflux_doc_folder}")
 install(FILES LICENSE DESTINATION "${granflux_doc_folder}" RENAME copyright)
-install(DIRECTORY LICENSES docs examples DESTINATION "${granflux_doc_folder}"
+install(DIRECTORY LICENSES docs DESTINATION "${granflux_doc_folder}")
+install(DIRECTORY examples DESTINATION "${granflux_doc_folder}"
         # what runs leave behind
         PATTERN post EXCLUDE
         PATTERN results EXCLUDE

@@ -28,6 +28,7 @@ programs_run() {
   says "usage: granflux_study" "$prefix/bin/granflux_study" --help
   [[ ! -e $build/lib/granfluxplugin.so || -n $(find "$prefix/lib" -name granfluxplugin.so) ]]
   [[ -e $prefix/share/doc/granflux/docs/reference/case_file.md ]]
+  [[ -e $prefix/share/doc/granflux/docs/results/validation.md ]]
   [[ -e $prefix/share/doc/granflux/examples/fluidized_bed/in.bed ]]
 }
 
