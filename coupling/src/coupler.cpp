@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 #include <variant>
 
 #include <granflux/cfd/case_mesh.hpp>
@@ -88,6 +89,9 @@ std::string text(const Vec3& x) {
   return out.str();
 }
 
+/// Where there is no drag.
+struct NoDrag {};
+
 std::string text(double x) {
   std::ostringstream out;
   out.precision(10);
@@ -103,8 +107,7 @@ struct Coupler::Impl {
         locator(make_locator(mesh)),
         kernel(VoidFractionKernels::make("void_fraction", o.void_fraction)),
         drag(DragLaws::make("drag", o.drag)), nusselt(NusseltLaws::make("nusselt", o.nusselt)),
-        exchange(mesh), ledger(comm), momentum(cfd::make_exchange(mesh)),
-        void_fraction(cfd::make_fields(mesh, 1)) {
+        exchange(mesh), ledger(comm), void_fraction(cfd::make_fields(mesh, 1)) {
     if (!(o.void_fraction_floor > 0 && o.void_fraction_floor < 1))
       throw ConfigError("coupling: void_fraction_floor = " + text(o.void_fraction_floor) +
                         " must lie between 0 and 1");
@@ -123,7 +126,12 @@ struct Coupler::Impl {
     if (c.energy && c.energy->conductivity == 0 && o.heat_transfer_coefficient == 0)
       throw ConfigError("[energy] conductivity: must be above 0, for Nusselt numbers count in it; "
                         "[coupling] heat_transfer_coefficient does without");
-    if (c.energy)
+    if (o.effects.two_way) {
+      momentum = cfd::make_exchange(mesh);
+      for (cfd::Field& fraction : momentum.pressure_fraction)
+        fraction.fill(1); // as it stays where gas and particles exert no force
+    }
+    if (c.energy && o.effects.two_way)
       heat = {.coefficient = cfd::make_fields(mesh), .source = cfd::make_fields(mesh)};
     for (cfd::BlockFields& field : work)
       field = cfd::make_fields(mesh);
@@ -141,18 +149,40 @@ struct Coupler::Impl {
   std::string too_little_gas(std::size_t b, double least) const;
   void sample_old_gas();
   template <class Law>
+  double drag_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
+                 const Vec3& gas_velocity, ExchangeSums& mine) const;
+  template <class Law>
   ExchangeSums charge(const Law& law, const ParticleView& view, double interval);
   void set_momentum_exchange();
   void sample_new_gas();
+  void show_new_gas(std::size_t p, double radius, FluidState& state) const;
   ExchangeSums book(const ParticleView& view, double interval);
   void check_heat(const ParticleView& view) const;
+  template <class Law>
+  double conductance_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
+                        const Vec3& gas_velocity, double interval, ExchangeSums& mine) const;
   template <class Law>
   ExchangeSums charge_heat(const Law& law, const ParticleView& view, double interval);
   void set_heat_exchange();
   void sample_new_heat();
   ExchangeSums book_heat(const ParticleView& view, double interval);
 
-  template <bool some_fixed> Vec3 apply(const ParticleView& view, double dt, double share) const;
+  void advance_alone(double interval);
+  void leave_alone(const ParticleView& view, double interval, ExchangeSums& sums);
+  void exchange_two_way(const ParticleView& view, double interval, ExchangeSums& sums);
+  void exchange_one_way(const ParticleView& view, double interval, ExchangeSums& sums);
+  template <class Law>
+  ExchangeSums act_on_particles(const Law& law, const ParticleView& view, double interval);
+  template <class Law>
+  ExchangeSums heat_particles(const Law& law, const ParticleView& view, double interval);
+  [[nodiscard]] bool any_placed() const;
+
+  /// Calls use(law) with the law of drag, or NoDrag where there is none.
+  template <class Use> auto with_drag(Use&& use) const {
+    return options.effects.drag ? std::visit(use, drag) : use(NoDrag{});
+  }
+  template <bool some_fixed, bool with_drag, bool with_pressure, bool two_way>
+  Vec3 apply(const ParticleView& view, double dt, double share) const;
 
   cfd::GasCase gas_case;
   CouplingOptions options;
@@ -171,9 +201,10 @@ struct Coupler::Impl {
   ExchangeReport report;
   CouplingTimes times;
   bool initialised = false;
+  bool displaced = false; ///< void_fraction is not 1 everywhere
 
-  cfd::MomentumExchange momentum;
-  cfd::HeatExchange heat; ///< empty without an energy equation
+  cfd::MomentumExchange momentum; ///< empty unless both ways
+  cfd::HeatExchange heat;         ///< empty without an energy equation, and unless both ways
   cfd::BlockFields void_fraction;
   std::vector<double> window_values;
   std::array<cfd::BlockFields, 6> work; ///< on gas cells, between messages and solver
@@ -183,6 +214,7 @@ struct Coupler::Impl {
   std::vector<Values<4>> old_gas;    ///< eps, u before the gas step
   std::vector<Values<4>> drag_terms; ///< b_eff, b_eff v - hand-over / T
   std::vector<Values<6>> new_gas;    ///< u, grad p after the gas step
+  std::vector<Values<3>> new_flow;   ///< u alone, where the pressure gradient is off
   std::vector<Values<2>> heat_terms; ///< hA_eff, hA_eff T - hand-over / interval
   std::vector<Values<1>> new_heat;   ///< gas temperature after the gas step
 };
@@ -290,6 +322,7 @@ void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& s
   sums.particles = double(weights.placed_count());
   sums.outside = double(weights.outside_count());
   deposit(volume);
+  displaced = true;
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const cfd::Block& block = mesh.local[b];
     // Before it becomes 1 - eps, which has no digits left for a single small particle.
@@ -344,11 +377,25 @@ void Coupler::Impl::sample_old_gas() {
   sample(old_gas);
 }
 
+/// Of a particle in gas of void fraction `eps` [kg/s], and what is to be known of it.
+template <class Law>
+double Coupler::Impl::drag_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
+                              const Vec3& gas_velocity, ExchangeSums& mine) const {
+  const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
+  const double d = 2 * view.radius[p];
+  const double slip = norm(gas_velocity - view.velocity[p]);
+  const DragInput in{.reynolds = rho * eps * slip * d / mu, .void_fraction = eps};
+  double b = 3 * std::numbers::pi * mu * d * eps * law(in);
+  if (options.model == MomentumModel::b)
+    b /= eps;
+  mine.law_out_of_range += law.valid.contains(in) ? 0 : 1;
+  mine.slip_reynolds_max = std::max(mine.slip_reynolds_max, in.reynolds);
+  return b;
+}
+
 /// Drag coefficient of every particle, and what the gas is to be charged for it.
 template <class Law>
 ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, double interval) {
-  const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
-  const bool model_b = options.model == MomentumModel::b;
   drag_terms.resize(view.size());
   return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
     FluidState& state = view.fluid[p];
@@ -358,60 +405,71 @@ ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, dou
       return;
     }
     const auto& [eps, ux, uy, uz] = old_gas[p].of;
-    const double d = 2 * view.radius[p];
-    const double slip = norm(Vec3{ux, uy, uz} - view.velocity[p]);
-    const DragInput in{.reynolds = rho * eps * slip * d / mu, .void_fraction = eps};
-    double b = 3 * std::numbers::pi * mu * d * eps * law(in);
-    if (model_b)
-      b /= eps;
-    const bool fixed = !view.fixed.empty() && view.fixed[p];
-    const double b_eff = fixed ? b : effective_coefficient(b, view.mass[p], interval);
+    state.void_fraction = eps;
+    double b_eff = 0;
+    if constexpr (!std::is_same_v<Law, NoDrag>) {
+      const double b = drag_of(law, view, p, eps, {ux, uy, uz}, mine);
+      const bool fixed = !view.fixed.empty() && view.fixed[p];
+      b_eff = fixed ? b : effective_coefficient(b, view.mass[p], interval);
+      state.drag_coefficient = b;
+      if (!fixed)
+        mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
+    }
     const Vec3 hand_over = state.impulse - state.booked;
     const Vec3 source = b_eff * view.velocity[p] - hand_over / interval;
     drag_terms[p] = {{b_eff, source.x, source.y, source.z}};
-    state.drag_coefficient = b;
-    state.void_fraction = eps;
-
     mine.handed_over += hand_over;
     mine.exchanged += norm(hand_over);
-    mine.law_out_of_range += law.valid.contains(in) ? 0 : 1;
-    if (!fixed)
-      mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
-    mine.slip_reynolds_max = std::max(mine.slip_reynolds_max, in.reynolds);
   });
 }
 
 void Coupler::Impl::set_momentum_exchange() {
   deposit(drag_terms);
-  const bool model_b = options.model == MomentumModel::b;
+  const bool gas_bears_all =
+      options.model == MomentumModel::b || !options.effects.pressure_gradient;
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
       momentum.drag_coefficient[b][c] = work[0][b][c];
       for (std::size_t d = 0; d < 3; ++d)
         momentum.drag_source[b][d][c] = work[1 + d][b][c];
-      momentum.pressure_fraction[b][c] = model_b ? 1 : void_fraction[b][c];
+      momentum.pressure_fraction[b][c] = gas_bears_all ? 1 : void_fraction[b][c];
     });
 }
 
 void Coupler::Impl::sample_new_gas() {
+  const bool with_pressure = options.effects.pressure_gradient;
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     for (std::size_t d = 0; d < 3; ++d) {
       work[d][b] = gas.velocity()[b][d];
-      work[3 + d][b] = gas.pressure_gradient()[b][d];
+      if (with_pressure)
+        work[3 + d][b] = gas.pressure_gradient()[b][d];
     }
-  sample(new_gas);
+  if (with_pressure)
+    sample(new_gas);
+  else
+    sample(new_flow);
+}
+
+/// Gas velocity and pressure force of a particle after the gas step.
+void Coupler::Impl::show_new_gas(std::size_t p, double radius, FluidState& state) const {
+  if (!options.effects.pressure_gradient) {
+    const auto& [ux, uy, uz] = new_flow[p].of;
+    state.gas_velocity = {ux, uy, uz};
+    return;
+  }
+  const double bearing = options.model == MomentumModel::a ? sphere_volume(radius) : 0;
+  const auto& [ux, uy, uz, gx, gy, gz] = new_gas[p].of;
+  state.gas_velocity = {ux, uy, uz};
+  state.pressure_force = -bearing * Vec3{gx, gy, gz};
 }
 
 /// What the gas step took from the gas for each particle.
 ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
-  const double bearing = options.model == MomentumModel::a ? 1 : 0;
   return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
     if (!weights.placed(p))
       return;
     FluidState& state = view.fluid[p];
-    const auto& [ux, uy, uz, gx, gy, gz] = new_gas[p].of;
-    state.gas_velocity = {ux, uy, uz};
-    state.pressure_force = -bearing * volume[p].of[0] * Vec3{gx, gy, gz};
+    show_new_gas(p, view.radius[p], state);
     const Vec3 drag_force = drag_terms[p].of[0] * (state.gas_velocity - view.velocity[p]);
     state.booked = interval * (drag_force + state.pressure_force);
     state.impulse = {};
@@ -419,6 +477,30 @@ ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
     mine.pressure_force += state.pressure_force;
     mine.booked += state.booked;
     mine.exchanged += norm(state.booked);
+  });
+}
+
+/// Of gas that flows as if there were no particles: void fraction 1, nothing booked.
+template <class Law>
+ExchangeSums Coupler::Impl::act_on_particles(const Law& law, const ParticleView& view,
+                                             double interval) {
+  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    FluidState& state = view.fluid[p];
+    if (!weights.placed(p)) {
+      state = {};
+      return;
+    }
+    state.void_fraction = 1;
+    show_new_gas(p, view.radius[p], state);
+    if constexpr (!std::is_same_v<Law, NoDrag>) {
+      const double b = drag_of(law, view, p, 1, state.gas_velocity, mine);
+      state.drag_coefficient = b;
+      mine.drag += b * (state.gas_velocity - view.velocity[p]);
+      if (view.fixed.empty() || !view.fixed[p])
+        mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
+    }
+    mine.pressure_force += state.pressure_force;
+    mine.particle_volume += sphere_volume(view.radius[p]);
   });
 }
 
@@ -430,12 +512,32 @@ void Coupler::Impl::check_heat(const ParticleView& view) const {
       without ? "[energy]: the particles have no temperature that the gas could change" : "");
 }
 
+/// Between the gas and a particle [W/K].
+template <class Law>
+double Coupler::Impl::conductance_of(const Law& law, const ParticleView& view, std::size_t p,
+                                     double eps, const Vec3& gas_velocity, double interval,
+                                     ExchangeSums& mine) const {
+  const double d = 2 * view.radius[p], given = options.heat_transfer_coefficient;
+  double conductance = std::numbers::pi * d * d * given;
+  if (!(given > 0)) {
+    const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
+    const double k = gas_case.energy->conductivity;
+    const double slip = norm(gas_velocity - view.velocity[p]);
+    const NusseltInput in{.reynolds = rho * eps * slip * d / mu,
+                          .prandtl = mu * gas_case.energy->heat_capacity / k,
+                          .void_fraction = eps};
+    conductance = std::numbers::pi * d * k * law(in);
+    mine.nusselt_out_of_range += law.valid.contains(in) ? 0 : 1;
+  }
+  if (view.fixed_temperature.empty() || !view.fixed_temperature[p])
+    mine.heat_stiffness_max =
+        std::max(mine.heat_stiffness_max, conductance * interval / view.heat_capacity[p]);
+  return conductance;
+}
+
 /// Conductance between gas and every particle, and what the gas is to be charged for it.
 template <class Law>
 ExchangeSums Coupler::Impl::charge_heat(const Law& law, const ParticleView& view, double interval) {
-  const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
-  const double k = gas_case.energy->conductivity, given = options.heat_transfer_coefficient;
-  const double prandtl = given > 0 ? 1 : mu * gas_case.energy->heat_capacity / k;
   heat_terms.resize(view.size());
   return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
     HeatState& state = view.heat[p];
@@ -445,27 +547,30 @@ ExchangeSums Coupler::Impl::charge_heat(const Law& law, const ParticleView& view
       return;
     }
     const auto& [eps, ux, uy, uz] = old_gas[p].of;
-    const double d = 2 * view.radius[p];
-    if (given > 0) {
-      state.conductance = std::numbers::pi * d * d * given;
-    } else {
-      const double slip = norm(Vec3{ux, uy, uz} - view.velocity[p]);
-      const NusseltInput in{
-          .reynolds = rho * eps * slip * d / mu, .prandtl = prandtl, .void_fraction = eps};
-      state.conductance = std::numbers::pi * d * k * law(in);
-      mine.nusselt_out_of_range += law.valid.contains(in) ? 0 : 1;
-    }
+    state.conductance = conductance_of(law, view, p, eps, {ux, uy, uz}, interval, mine);
     const bool fixed = !view.fixed_temperature.empty() && view.fixed_temperature[p];
-    const double capacity = view.heat_capacity[p];
     const double effective =
-        fixed ? state.conductance : effective_coefficient(state.conductance, capacity, interval);
+        fixed ? state.conductance
+              : effective_coefficient(state.conductance, view.heat_capacity[p], interval);
     const double hand_over = state.received - state.booked;
     heat_terms[p] = {{effective, effective * view.temperature[p] - hand_over / interval}};
     mine.heat_handed_over += hand_over;
     mine.heat_exchanged += std::abs(hand_over);
-    if (!fixed)
-      mine.heat_stiffness_max =
-          std::max(mine.heat_stiffness_max, state.conductance * interval / capacity);
+  });
+}
+
+/// Of gas that keeps its heat: nothing is booked.
+template <class Law>
+ExchangeSums Coupler::Impl::heat_particles(const Law& law, const ParticleView& view,
+                                           double interval) {
+  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
+    HeatState& state = view.heat[p];
+    if (!weights.placed(p)) {
+      state = {};
+      return;
+    }
+    state.conductance = conductance_of(law, view, p, 1, view.fluid[p].gas_velocity, interval, mine);
+    state.gas_temperature = new_heat[p].of[0];
   });
 }
 
@@ -497,7 +602,7 @@ ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval)
   });
 }
 
-template <bool some_fixed>
+template <bool some_fixed, bool with_drag, bool with_pressure, bool two_way>
 Vec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) const {
   const Vec3 weight_of_gas = -gas.fluid().density * gas.fluid().gravity;
   return sum_particles<Vec3>(view.size(), [&](std::size_t p, Vec3& mine) {
@@ -506,20 +611,113 @@ Vec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) con
       state.force = {};
       return;
     }
-    const Vec3 buoyancy = sphere_volume(view.radius[p]) * weight_of_gas;
-    const Vec3 other = view.force[p] + state.pressure_force + buoyancy;
-    double lambda = state.drag_coefficient * dt / view.mass[p];
-    if constexpr (some_fixed)
-      lambda = view.fixed[p] ? 0 : lambda;
-    const Vec3 exchanged =
-        exact_drag(state.drag_coefficient, lambda, state.gas_velocity, view.velocity[p], other) +
-        state.pressure_force;
-    state.force = exchanged + buoyancy;
+    Vec3 exchanged, buoyancy;
+    if constexpr (with_pressure) {
+      buoyancy = sphere_volume(view.radius[p]) * weight_of_gas;
+      exchanged = state.pressure_force;
+    }
+    if constexpr (with_drag) {
+      Vec3 other = view.force[p];
+      if constexpr (with_pressure)
+        other = view.force[p] + state.pressure_force + buoyancy;
+      double lambda = state.drag_coefficient * dt / view.mass[p];
+      if constexpr (some_fixed)
+        lambda = view.fixed[p] ? 0 : lambda;
+      const Vec3 drag_force =
+          exact_drag(state.drag_coefficient, lambda, state.gas_velocity, view.velocity[p], other);
+      exchanged = with_pressure ? drag_force + state.pressure_force : drag_force;
+    }
+    state.force = with_pressure ? exchanged + buoyancy : exchanged;
     view.force[p] += state.force;
-    const Vec3 impulse = share * dt * exchanged;
-    state.impulse += impulse;
-    mine += impulse;
+    if constexpr (two_way) {
+      const Vec3 impulse = share * dt * exchanged;
+      state.impulse += impulse;
+      mine += impulse;
+    }
   });
+}
+
+/// Gas in which no particle is, nor counts. Where the last one has just gone, the pressure still
+/// works on a void fraction below 1: the gas bears all of it.
+void Coupler::Impl::advance_alone(double interval) {
+  const bool just_left = displaced;
+  if (just_left) {
+    for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+      void_fraction[b].fill(1);
+      momentum.pressure_fraction[b].fill(1);
+      momentum.drag_coefficient[b].fill(0);
+      for (cfd::Field& component : momentum.drag_source[b])
+        component.fill(0);
+    }
+    displaced = false;
+  }
+  const Stopwatch watch(times.gas);
+  report.gas = gas.advance(interval, void_fraction, just_left ? &momentum : nullptr, nullptr);
+}
+
+/// No coupled particle is in the grid: the gas costs what it costs without any.
+void Coupler::Impl::leave_alone(const ParticleView& view, double interval, ExchangeSums& sums) {
+  sums.outside = double(weights.outside_count());
+  std::fill(view.fluid.begin(), view.fluid.end(), FluidState{});
+  std::fill(view.heat.begin(), view.heat.end(), HeatState{});
+  advance_alone(interval);
+}
+
+bool Coupler::Impl::any_placed() const {
+  int any = weights.placed_count() > 0;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
+  return any != 0;
+}
+
+void Coupler::Impl::exchange_two_way(const ParticleView& view, double interval,
+                                     ExchangeSums& sums) {
+  find_void_fraction(view, sums);
+  sample_old_gas();
+  {
+    const Stopwatch watch(times.laws);
+    sums += with_drag([&](const auto& law) { return charge(law, view, interval); });
+  }
+  if (options.effects.any_force())
+    set_momentum_exchange();
+  const bool with_heat = gas_case.energy.has_value();
+  if (with_heat) {
+    {
+      const Stopwatch watch(times.laws);
+      sums +=
+          std::visit([&](const auto& law) { return charge_heat(law, view, interval); }, nusselt);
+    }
+    set_heat_exchange();
+  }
+  {
+    const Stopwatch watch(times.gas);
+    report.gas = gas.advance(interval, void_fraction, &momentum, with_heat ? &heat : nullptr);
+  }
+  if (options.effects.any_force())
+    sample_new_gas();
+  if (with_heat)
+    sample_new_heat();
+  const Stopwatch watch(times.laws);
+  if (options.effects.any_force())
+    sums += book(view, interval);
+  if (with_heat)
+    sums += book_heat(view, interval);
+}
+
+void Coupler::Impl::exchange_one_way(const ParticleView& view, double interval,
+                                     ExchangeSums& sums) {
+  sums.particles = double(weights.placed_count());
+  sums.outside = double(weights.outside_count());
+  advance_alone(interval);
+  sample_new_gas();
+  const bool with_heat = gas_case.energy.has_value();
+  if (with_heat)
+    sample_new_heat();
+  const Stopwatch watch(times.laws);
+  sums += with_drag([&](const auto& law) { return act_on_particles(law, view, interval); });
+  if (with_heat)
+    sums +=
+        std::visit([&](const auto& law) { return heat_particles(law, view, interval); }, nusselt);
+  sums.solid_volume = sums.particle_volume; // nothing is deposited
 }
 
 Coupler::Coupler(const cfd::GasCase& gas_case, const CouplingOptions& options, MPI_Comm comm)
@@ -546,8 +744,10 @@ void Coupler::initialise(const ParticleView& view, double time) {
   for (std::size_t p = 0; p < view.size(); ++p)
     view.fluid[p] = {};
   std::fill(view.heat.begin(), view.heat.end(), HeatState{});
-  ExchangeSums sums;
-  s.find_void_fraction(view, sums);
+  if (s.options.effects.two_way) {
+    ExchangeSums sums;
+    s.find_void_fraction(view, sums);
+  }
   s.gas.initialise(s.void_fraction, s.gas_case.initial_velocity, time);
   s.initialised = true;
 }
@@ -557,56 +757,47 @@ const ExchangeReport& Coupler::exchange(const ParticleView& view, double interva
   if (!s.initialised)
     throw std::logic_error("Coupler::exchange needs initialise() or load() first");
   s.locate(view);
+  s.check_heat(view);
   ExchangeSums sums;
-  s.find_void_fraction(view, sums);
-  s.sample_old_gas();
-  {
-    const Stopwatch watch(s.times.laws);
-    sums += std::visit([&](const auto& law) { return s.charge(law, view, interval); }, s.drag);
-  }
-  s.set_momentum_exchange();
-  const bool with_heat = s.gas_case.energy.has_value();
-  if (with_heat) {
-    s.check_heat(view);
-    {
-      const Stopwatch watch(s.times.laws);
-      sums += std::visit([&](const auto& law) { return s.charge_heat(law, view, interval); },
-                         s.nusselt);
-    }
-    s.set_heat_exchange();
-  }
-  {
-    const Stopwatch watch(s.times.gas);
-    s.report.gas =
-        s.gas.advance(interval, s.void_fraction, &s.momentum, with_heat ? &s.heat : nullptr);
-  }
-  s.sample_new_gas();
-  if (with_heat)
-    s.sample_new_heat();
-  {
-    const Stopwatch watch(s.times.laws);
-    sums += s.book(view, interval);
-    if (with_heat)
-      sums += s.book_heat(view, interval);
-  }
+  if (!s.any_placed())
+    s.leave_alone(view, interval, sums);
+  else if (s.options.effects.two_way)
+    s.exchange_two_way(view, interval, sums);
+  else
+    s.exchange_one_way(view, interval, sums);
   s.ledger.close(sums, s.gas.balance(), interval, s.report);
   return s.report;
 }
 
 void Coupler::apply(const ParticleView& view, double dt, double share) {
   Impl& s = *impl_;
+  const ExchangeEffects& effects = s.options.effects;
+  if (!effects.any_force())
+    return;
   const Stopwatch watch(s.times.force);
-  s.ledger.received(view.fixed.empty() ? s.apply<false>(view, dt, share)
-                                       : s.apply<true>(view, dt, share));
+  const auto choice = [](bool condition) {
+    return condition ? std::variant<std::false_type, std::true_type>(std::true_type{})
+                     : std::false_type{};
+  };
+  s.ledger.received(std::visit(
+      [&](auto fixed, auto drag, auto pressure, auto two_way) {
+        return s.apply<fixed, drag, pressure, two_way>(view, dt, share);
+      },
+      choice(!view.fixed.empty()), choice(effects.drag), choice(effects.pressure_gradient),
+      choice(effects.two_way)));
 }
 
 void Coupler::received_heat(double heat) {
-  impl_->ledger.received_heat(heat);
+  if (impl_->options.effects.two_way)
+    impl_->ledger.received_heat(heat);
 }
 
 void Coupler::unapply(const ParticleView& view, double dt, double share) {
   Impl& s = *impl_;
-  const Vec3 weight_of_gas = -s.gas.fluid().density * s.gas.fluid().gravity;
+  if (!s.options.effects.two_way || !s.options.effects.any_force())
+    return;
+  const Vec3 weight_of_gas =
+      s.options.effects.pressure_gradient ? -s.gas.fluid().density * s.gas.fluid().gravity : Vec3{};
   s.ledger.received(sum_particles<Vec3>(view.size(), [&](std::size_t p, Vec3& mine) {
     FluidState& state = view.fluid[p];
     if (!(state.void_fraction > 0))

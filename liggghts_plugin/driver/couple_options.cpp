@@ -23,7 +23,8 @@ template <class Number> bool parse(const std::string& word, Number& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-const std::vector<std::string> keywords{"case", "couple_every", "fixed_group", "box", "progress"};
+const std::vector<std::string> keywords{"case", "couple_every", "fixed_group",
+                                        "box",  "progress",     "effects"};
 
 } // namespace
 
@@ -43,8 +44,10 @@ double read_progress_every(const std::string& word) {
   return seconds;
 }
 
-CoupleOptions read_couple_options(std::span<char*> words) {
+CoupleOptions read_couple_options(std::span<char*> given) {
   CoupleOptions options;
+  std::vector<char*> words(given.begin(), given.end());
+  options.effects = take_effects(words, effects_of_gas, keywords);
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const std::string key = words[i];
     if (std::ranges::find(keywords, key) == keywords.end())

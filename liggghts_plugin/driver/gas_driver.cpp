@@ -33,7 +33,101 @@ GasDriver::GasDriver(std::span<char*> words, MPI_Comm comm)
   gas_case_ = cfd::read_gas_case(file);
   coupling_options_ = coupling::read_coupling(file);
   file.finish();
+  available_ = effects_of_case();
+  const EffectsWanted& wanted = options_.effects;
+  if (wanted.by == EffectsWanted::By::hand)
+    for (const Effect effect : {Effect::convection, Effect::buoyancy})
+      if (wanted.named.has(effect) && !available_.has(effect))
+        throw ConfigError(fmt::format("effects {}: the case has {}", name_of(effect),
+                                      effect == Effect::convection ? "no [energy] table"
+                                                                   : "no [energy] expansion"));
+  chosen_ = wanted.by != EffectsWanted::By::numbers;
+  effects_ = available_;
+  if (wanted.by == EffectsWanted::By::hand)
+    keep_effects(wanted.named);
   stable_.emplace(gas_case_, coupling_options_);
+}
+
+EffectSet GasDriver::effects_of_case() const {
+  EffectSet set{Effect::gas, Effect::drag, Effect::pressure_gradient, Effect::two_way};
+  if (gas_case_.energy)
+    set.add(Effect::convection);
+  if (gas_case_.energy && gas_case_.energy->expansion > 0)
+    set.add(Effect::buoyancy);
+  return set;
+}
+
+/// What is off leaves the case: the gas never hears of it.
+void GasDriver::keep_effects(EffectSet on) {
+  effects_ = on;
+  coupling_options_.effects = {.two_way = on.has(Effect::two_way),
+                               .drag = on.has(Effect::drag),
+                               .pressure_gradient = on.has(Effect::pressure_gradient)};
+  if (!on.has(Effect::convection))
+    gas_case_.energy.reset();
+  else if (!on.has(Effect::buoyancy))
+    gas_case_.energy->expansion = 0;
+}
+
+void GasDriver::describe(coupling::SceneState& scene) const {
+  const cfd::Fluid& fluid = gas_case_.fluid;
+  if (!solves_gas() && chosen_ && !watch_begun_)
+    return; // off by hand
+  coupling::GasOfScene gas{.density = fluid.density, .viscosity = fluid.viscosity};
+  gas.speed = norm(gas_case_.initial_velocity);
+  for (const cfd::BoundaryCondition& boundary : gas_case_.boundaries) {
+    const double turning = norm(boundary.angular_velocity) * scene.particles.height / 2;
+    const bool wall = boundary.kind == cfd::BoundaryKind::wall;
+    double& speed = wall ? gas.wall_speed : gas.speed;
+    speed = std::max({speed, norm(boundary.velocity), turning});
+    if (gas_case_.energy && boundary.heat == cfd::BoundaryCondition::Heat::temperature)
+      scene.meets(boundary.temperature);
+    scene.heated = scene.heated || boundary.heat_flux != 0;
+  }
+  if (const auto& energy = gas_case_.energy) {
+    gas.conductivity = energy->conductivity;
+    gas.heat_capacity = energy->heat_capacity;
+    gas.expansion = energy->expansion;
+    scene.meets(energy->initial_temperature);
+    for (const cfd::BoundaryCondition& boundary : gas_case_.boundaries)
+      if (boundary.kind == cfd::BoundaryKind::inlet)
+        scene.meets(boundary.temperature);
+  }
+  gas.length = scene.box_length;
+  if (!(scene.gravity > 0))
+    scene.gravity = norm(fluid.gravity);
+  scene.gas = gas;
+}
+
+coupling::SceneState GasDriver::scene_state(Host& host) const {
+  coupling::SceneState scene;
+  host.describe(scene);
+  describe(scene);
+  if (coupler_) { // the gas is solved: its slip is known
+    const coupling::ParticleView view = host.particles(false);
+    add_slip(scene, view.velocity, view.fluid, comm_);
+  }
+  return scene;
+}
+
+void GasDriver::choose_effects(Host& host) {
+  if (watch_begun_ || !options_.effects.given())
+    return;
+  const coupling::SceneState scene = scene_state(host);
+  if (!chosen_)
+    keep_effects(decide(scene, available_) & available_);
+  stable_.emplace(gas_case_, coupling_options_);
+  chosen_ = watch_begun_ = true;
+  watch_ = EffectWatch(effects_of_gas, available_, effects_);
+  watch_.begin(scene);
+  host.say(effects_table(scene, effects_of_gas, available_, effects_));
+}
+
+void GasDriver::warn_of_neglected(Host& host) {
+  if (!options_.effects.given())
+    return;
+  if (const std::string text = watch_.warnings(scene_state(host)); !text.empty())
+    host.say(text);
 }
 
 /// What the run is made of, so that a wrong unit shows before it starts.
@@ -114,6 +208,11 @@ void GasDriver::begin(Host& host, double dt) {
 }
 
 void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
+  if (!solves_gas()) {
+    clock_.set_time_step(dt);
+    begin_run(steps);
+    return;
+  }
   explaining(host, steps.first, [&] {
     stable_->begin_run(host);
     if (!coupler_)
@@ -138,7 +237,7 @@ void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
 }
 
 void GasDriver::begin_run(RunSteps steps) {
-  if (!coupler_)
+  if (!coupler_ && solves_gas())
     throw ConfigError("the first run with the gas must be set up: 'run N' without 'pre no'");
   running_ = true;
   steps_ = steps;
@@ -147,6 +246,8 @@ void GasDriver::begin_run(RunSteps steps) {
 }
 
 void GasDriver::start_timers() {
+  if (!coupler_)
+    return;
   times_at_start_ = coupler_->times();
   numbers_sent_at_start_ = coupler_->numbers_sent();
   fields_seconds_ = particle_steps_ = 0;
@@ -154,6 +255,14 @@ void GasDriver::start_timers() {
 }
 
 bool GasDriver::step(Host& host, long step, double dt) {
+  if (!solves_gas()) {
+    clock_.count_step();
+    if (!clock_.due())
+      return false;
+    clock_.advanced();
+    warn_of_neglected(host);
+    return true;
+  }
   if (dt != clock_.time_step())
     throw ConfigError(fmt::format("the time step changed from {} to {} s within a run: it must be "
                                   "constant (no fix dt/reset)",
@@ -188,6 +297,7 @@ void GasDriver::exchange(Host& host, long step) {
   if (step > steps_.first) // else after the table
     warn_of_limits(host);
   largest_.add(coupler_->report(), coupler_->gas().balance());
+  warn_of_neglected(host);
   write_fields();
 }
 
@@ -212,8 +322,10 @@ template <class Work> void GasDriver::explaining(Host& host, long step, Work&& w
 
 void GasDriver::apply(Host& host, double share) {
   const coupling::ParticleView particles = host.particles(false);
-  coupler_->apply(particles, clock_.time_step(), share);
-  host.clear_frozen_forces();
+  if (coupling_options_.effects.any_force()) {
+    coupler_->apply(particles, clock_.time_step(), share);
+    host.clear_frozen_forces();
+  }
   last_force_dt_ = clock_.time_step();
   particle_steps_ += double(particles.size());
 }
@@ -242,18 +354,44 @@ coupling::CouplingTimes GasDriver::coupling_times() const {
 }
 
 double GasDriver::seconds() const {
+  if (!coupler_)
+    return 0;
   const coupling::CouplingTimes t = coupling_times();
   return t.gas + t.locate + t.deposit + t.sample + t.messages + t.force + fields_seconds_;
 }
 
 std::string GasDriver::end_run(RunTimes times) {
   running_ = false;
+  if (!coupler_)
+    return "granflux: the gas was not solved\n";
   times.coupling = coupling_times();
   times.fields = fields_seconds_;
   double particle_steps = particle_steps_;
   MPI_Allreduce(MPI_IN_PLACE, &particle_steps, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return run_report(over_ranks(times, comm_), largest_, particle_steps) +
+  const RunTimesOverRanks over = over_ranks(times, comm_);
+  return run_report(over, largest_, particle_steps) + effects_report(over.mean, particle_steps) +
          division_report(gas_share(), comm_);
+}
+
+/// What the effects that are on have taken of this run.
+std::string GasDriver::effects_report(const RunTimes& mean, double particle_steps) const {
+  if (!options_.effects.given() || particle_steps == 0)
+    return {};
+  std::string text = "granflux: measured cost of the effects that are on, ns a particle and step\n";
+  const auto row = [&](const char* name, double seconds) {
+    text += fmt::format("  {:<42}{:>11.2f}\n", name, 1e9 * seconds / particle_steps);
+  };
+  const coupling::CouplingTimes& c = mean.coupling;
+  row("gas", c.gas);
+  if (coupling_options_.effects.any_force())
+    row(effects_.has(Effect::drag)
+            ? effects_.has(Effect::pressure_gradient) ? "drag, pressure_gradient" : "drag"
+            : "pressure_gradient",
+        c.force);
+  row(effects_.has(Effect::two_way) ? "exchange, two_way" : "exchange, one way",
+      c.locate + c.deposit + c.messages + c.sample);
+  row(effects_.has(Effect::convection) ? "laws of drag and convection" : "laws of drag", c.laws);
+  return text;
 }
 
 GasShare GasDriver::gas_share() const {

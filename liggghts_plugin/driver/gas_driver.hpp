@@ -16,6 +16,7 @@
 #include "couple_clock.hpp"
 #include "couple_options.hpp"
 #include "couple_restart.hpp"
+#include "effects.hpp"
 #include "host.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
@@ -40,6 +41,18 @@ public:
   GasDriver(std::span<char*> words, MPI_Comm comm);
 
   [[nodiscard]] const CoupleOptions& options() const { return options_; }
+
+  /// Before the first run decides on the effects that the words leave to the numbers, and prints
+  /// the table where effects are chosen at all. Collective; does nothing later on.
+  void choose_effects(Host& host);
+  /// Effects are known, or all that the case has.
+  [[nodiscard]] bool effects_are_chosen() const { return chosen_; }
+  /// False: nothing is to be done for the gas, nor kept.
+  [[nodiscard]] bool solves_gas() const { return effects_.has(Effect::gas); }
+  /// A restart file has given its state.
+  [[nodiscard]] bool continues() const { return restored_.has_value(); }
+  /// The gas's side of the scene.
+  void describe(coupling::SceneState& scene) const;
   [[nodiscard]] bool with_heat() const { return gas_case_.energy.has_value(); }
 
   /// Before a run, with all other forces of the present step in the force array: makes the gas
@@ -74,6 +87,11 @@ public:
   void check_state_fits() const;
 
 private:
+  void keep_effects(EffectSet on);
+  [[nodiscard]] EffectSet effects_of_case() const;
+  [[nodiscard]] coupling::SceneState scene_state(Host& host) const;
+  void warn_of_neglected(Host& host);
+  [[nodiscard]] std::string effects_report(const RunTimes& mean, double particle_steps) const;
   void begin(Host& host, double dt);
   void load_restored(coupling::Coupler& coupler) const;
   [[nodiscard]] std::unique_ptr<coupling::Coupler> make_coupler() const;
@@ -96,6 +114,10 @@ private:
   CoupleClock clock_;
   Progress progress_;
 
+  EffectSet available_, effects_; // of the case; on
+  bool chosen_ = false;
+  EffectWatch watch_;
+  bool watch_begun_ = false;
   std::unique_ptr<coupling::Coupler> coupler_; // from the first run on
   std::unique_ptr<cfd::CgnsWriter> fields_;    // where the case asks for fields
   double next_fields_time_ = 0;

@@ -19,8 +19,8 @@ namespace {
 using particle_subset::FrictionHeat;
 
 const std::vector<std::string> keywords{
-    "initial_temperature", "conduction", "friction",  "damping",          "wall_share", "gas_gap",
-    "gas_layer",           "least_gap",  "radiation", "fixed_temperature"};
+    "initial_temperature", "conduction", "friction",  "damping",           "wall_share", "gas_gap",
+    "gas_layer",           "least_gap",  "radiation", "fixed_temperature", "effects"};
 
 double number(const std::string& key, const std::string& word, double low, double high,
               const char* allowed) {
@@ -50,8 +50,66 @@ FrictionHeat friction_heat(const std::string& word) {
 
 } // namespace
 
-HeatOptions read_heat_options(std::span<char*> words) {
+std::span<const std::string> heat_keywords() {
+  return keywords;
+}
+
+EffectSet HeatOptions::available() const {
+  EffectSet set;
+  const auto add_if = [&](bool condition, Effect effect) {
+    if (condition)
+      set.add(effect);
+  };
+  add_if(contacts.radius.has_value(), Effect::conduction);
+  add_if(contacts.friction != FrictionHeat::off, Effect::friction);
+  add_if(contacts.damping, Effect::damping);
+  add_if(near.gas_gap.has_value(), Effect::gas_gap);
+  add_if(near.surroundings.has_value(), Effect::radiation);
+  return set;
+}
+
+void HeatOptions::keep(EffectSet on) {
+  if (!on.has(Effect::conduction))
+    contacts.radius.reset();
+  if (!on.has(Effect::friction))
+    contacts.friction = FrictionHeat::off;
+  if (!on.has(Effect::damping))
+    contacts.damping = false;
+  if (!on.has(Effect::gas_gap))
+    near.gas_gap.reset();
+  if (!on.has(Effect::radiation))
+    near.surroundings.reset();
+}
+
+namespace {
+
+/// Dashpots need no data: they are there for who names them, and for the numbers to judge.
+void check_named(HeatOptions& options, bool damping_given) {
+  const EffectsWanted& wanted = options.effects;
+  if (wanted.given() && !damping_given)
+    options.contacts.damping =
+        wanted.by == EffectsWanted::By::numbers || wanted.named.has(Effect::damping);
+  if (wanted.by != EffectsWanted::By::hand)
+    return;
+  constexpr std::pair<Effect, const char*> needs[] = {
+      {Effect::conduction, "conduction off was given"},
+      {Effect::friction, "friction off was given"},
+      {Effect::damping, "damping off was given"},
+      {Effect::gas_gap, "keyword gas_gap is missing: the conductivity of the gas [W/(m K)]"},
+      {Effect::radiation, "keyword radiation is missing: the temperature of the surroundings [K]"}};
+  for (const auto& [effect, why] : needs)
+    if (wanted.named.has(effect) && !options.available().has(effect))
+      throw ConfigError(fmt::format("effects {}: {}", name_of(effect), why));
+  options.keep(wanted.named);
+}
+
+} // namespace
+
+HeatOptions read_heat_options(std::span<char*> given) {
   HeatOptions options;
+  std::vector<char*> words(given.begin(), given.end());
+  options.effects = take_effects(words, effects_of_heat, keywords);
+  bool damping_given = false;
   coupling::GasGap gap{.conductivity = 0};
   std::string of_gap;
   options.contacts.radius = coupling::HertzRadius{};
@@ -72,7 +130,7 @@ HeatOptions read_heat_options(std::span<char*> words) {
     else if (key == "friction")
       options.contacts.friction = friction_heat(value);
     else if (key == "damping")
-      options.contacts.damping = switched_on(key, value);
+      damping_given = true, options.contacts.damping = switched_on(key, value);
     else if (key == "wall_share")
       options.contacts.wall_share = number(key, value, 0, 1, "a share from 0 to 1");
     else if (key == "gas_gap")
@@ -97,6 +155,7 @@ HeatOptions read_heat_options(std::span<char*> words) {
     throw ConfigError(fmt::format("{} is of no use without gas_gap: give the conductivity of the "
                                   "gas [W/(m K)]",
                                   of_gap));
+  check_named(options, damping_given);
   if (options.initial_temperature == 0)
     throw ConfigError("keyword initial_temperature is missing: K");
   return options;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "effects.hpp"
 #include "particle_subset/contact_heat.hpp"
 #include "particle_subset/near_heat.hpp"
 
@@ -17,9 +18,18 @@ struct HeatOptions {
   particle_subset::ContactHeatOptions contacts;
   particle_subset::NearHeatOptions near;
   std::vector<std::string> fixed_groups; ///< whose temperatures stay
+  EffectsWanted effects;
+
+  /// Those whose form and data the words give.
+  [[nodiscard]] EffectSet available() const;
+  /// The others are off from here on.
+  void keep(EffectSet on);
 };
 
+/// Of the fix in every host.
+[[nodiscard]] std::span<const std::string> heat_keywords();
+
 /// Throws ConfigError that names the word and what is allowed.
-HeatOptions read_heat_options(std::span<char*> words);
+HeatOptions read_heat_options(std::span<char*> given);
 
 } // namespace granflux::driver

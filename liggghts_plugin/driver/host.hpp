@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <granflux/coupling/effects/scene_state.hpp>
 #include <granflux/coupling/particle_view.hpp>
 
 #include "checkpointer.hpp"
@@ -40,6 +41,9 @@ public:
   virtual bool forces_come_back() = 0;
   /// Nothing where the run has written none.
   virtual std::optional<GoodCheckpoint> last_checkpoint() = 0;
+
+  /// The scene without its gas: particles, gravity, box, what particles conduct. Collective.
+  virtual void describe(coupling::SceneState& scene) = 0;
 
   /// To screen and log, once for all ranks.
   virtual void say(const std::string& text) = 0;

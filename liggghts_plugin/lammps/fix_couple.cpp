@@ -33,19 +33,18 @@ constexpr int shown_columns = 11;
 } // namespace
 
 FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), fluid_(std::vector<double>(coupling::fluid_state_doubles)) {
+    : Fix(lammps, narg, arg), fluid_({}) {
   restart_global = restart_peratom = 1;
   create_attribute = 1;
   vector_flag = 1;
   size_vector = driver::GasDriver::values;
   global_freq = 1;
   extvector = 0;
-  peratom_flag = 1;
-  size_peratom_cols = shown_columns;
-  peratom_freq = 1;
   guard(*this, *error, [&] {
     refuse_second_fix();
     gas_ = std::make_unique<driver::GasDriver>(std::span(arg + 3, std::size_t(narg - 3)), world);
+    if (gas_->solves_gas())
+      fluid_ = ParticleRows(std::vector<double>(coupling::fluid_state_doubles));
     if (gas_->with_heat())
       heat_states_.emplace(std::vector<double>(coupling::heat_state_doubles));
     const std::string& held = gas_->options().fixed_group;
@@ -55,6 +54,11 @@ FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     host_ = std::make_unique<HostView>(lmp, fluid_, groupbit,
                                        held.empty() ? 0 : group->bitmask[held_group]);
   });
+  if (gas_->solves_gas()) {
+    peratom_flag = 1;
+    size_peratom_cols = shown_columns;
+    peratom_freq = 1;
+  }
   maxexchange = maxsize_restart();
   grow_arrays(atom->nmax);
   atom->add_callback(LAMMPS_NS::Atom::GROW);
@@ -77,7 +81,10 @@ int FixCouple::setmask() {
 }
 
 void FixCouple::init() {
-  guard(*this, *error, [&] { check_script(script_of(*lmp)); });
+  guard(*this, *error, [&] {
+    check_script(script_of(*lmp));
+    gas_->choose_effects(*host_);
+  });
   warn_of_later_forces();
 }
 
@@ -108,7 +115,7 @@ void FixCouple::setup(int) {
 
 /// Where the gas has a temperature, those of the particles are integrated together with it.
 void FixCouple::find_heat() {
-  if (!heat_states_)
+  if (!gas_->with_heat())
     return;
   FixHeat* heat = nullptr;
   for (int i = 0; i < modify->nfix; ++i)

@@ -48,6 +48,9 @@ public:
   int maxsize_restart() override;
   double memory_usage() override;
 
+  /// The gas's side of the scene.
+  void describe(coupling::SceneState& scene) const { gas_->describe(scene); }
+
 private:
   void refuse_second_fix() const;
   void find_heat();

@@ -24,8 +24,10 @@
 #include <granflux/cfd/vec3.hpp>
 
 #include "driver/restart_values.hpp"
+#include "fix_couple.hpp"
 #include "guard.hpp"
 #include "particle_subset/temperature_step.hpp"
+#include "scene.hpp"
 
 namespace granflux::lammps {
 
@@ -38,6 +40,9 @@ constexpr std::string_view with_single[] = {"gran/hooke", "gran/hooke/history",
                                             "gran/hertz/history"};
 /// Its tangential force is one of the slip of the moment, and all of its work is lost.
 constexpr std::string_view without_memory = "gran/hooke";
+
+/// Between two looks at whether what is off has come to count.
+constexpr int steps_between_looks = 1000;
 
 constexpr int tangential_force = 0; // from here on in Pair::svector
 
@@ -85,11 +90,8 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       if (group->find(name) < 0)
         throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
   });
-  const auto& contacts = words_.options.contacts;
-  touching_ = contacts.radius || contacts.friction != FrictionHeat::off;
-  law_ = particle_subset::ContactHeat(
-      contacts, words_.materials,
-      std::vector<double>(words_.materials.size() * words_.materials.size(), 1));
+  available_ = words_.options.available();
+  find_law();
   temperature_ = ParticleRows(std::vector<double>{words_.options.initial_temperature});
   grow_arrays(atom->nmax);
   atom->add_callback(LAMMPS_NS::Atom::GROW);
@@ -99,6 +101,59 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 FixHeat::~FixHeat() {
   atom->delete_callback(id, LAMMPS_NS::Atom::GROW);
   atom->delete_callback(id, LAMMPS_NS::Atom::RESTART);
+}
+
+void FixHeat::find_law() {
+  const auto& contacts = words_.options.contacts;
+  touching_ = contacts.radius || contacts.friction != FrictionHeat::off;
+  law_ = particle_subset::ContactHeat(
+      contacts, words_.materials,
+      std::vector<double>(words_.materials.size() * words_.materials.size(), 1));
+}
+
+/// Leaves to the numbers what the words leave to them, before the first run with particles.
+void FixHeat::choose_effects() {
+  if (chosen_ || !words_.options.effects.given())
+    return;
+  const coupling::SceneState found = scene();
+  if (words_.options.effects.by == driver::EffectsWanted::By::numbers) {
+    words_.options.keep(driver::decide(found, available_));
+    find_law();
+  }
+  chosen_ = true;
+  const driver::EffectSet on = words_.options.available();
+  watch_ = driver::EffectWatch(driver::effects_of_heat, available_, on);
+  watch_.begin(found);
+  say(driver::effects_table(found, driver::effects_of_heat, available_, on));
+}
+
+coupling::SceneState FixHeat::scene() {
+  coupling::SceneState scene;
+  describe_particles(*lmp, scene);
+  describe(scene);
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const auto* couple = dynamic_cast<const FixCouple*>(modify->fix[i]))
+      couple->describe(scene);
+  return scene;
+}
+
+void FixHeat::describe(coupling::SceneState& scene) {
+  const particle_subset::ThermalMaterial& material = words_.materials.front();
+  coupling::HeatOfScene heat{.heat_capacity = words_.capacity.front(),
+                             .conductivity = material.conductivity};
+  if (words_.knows_moduli) {
+    heat.young = material.young;
+    heat.poisson = material.poisson;
+  }
+  driver::add_temperatures(scene, {temperature_.data(), std::size_t(atom->nlocal)}, world);
+  scene.heat = heat;
+}
+
+void FixHeat::warn_of_neglected() {
+  if (!words_.options.effects.given())
+    return;
+  if (const std::string text = watch_.warnings(scene()); !text.empty())
+    say(text);
 }
 
 int FixHeat::setmask() {
@@ -139,7 +194,10 @@ int FixHeat::held_bits() const {
 }
 
 void FixHeat::init() {
-  guard(*this, *error, [&] { check_pair_style(); });
+  guard(*this, *error, [&] {
+    choose_effects();
+    check_pair_style();
+  });
   held_ = held_bits();
   frozen_ = 0;
   for (int i = 0; i < modify->nfix; ++i)
@@ -231,8 +289,10 @@ double FixHeat::friction_heat(const double* told, int i, int j, const Vec3& apar
 }
 
 void FixHeat::post_force(int) {
-  if (!steps_by_gas_)
+  if (!steps_by_gas_ && !rests())
     step(nullptr);
+  if (words_.options.effects.given() && update->ntimestep % steps_between_looks == 0)
+    warn_of_neglected();
 }
 
 double FixHeat::step_with_gas(coupling::HeatState* states) {
@@ -335,6 +395,7 @@ void FixHeat::post_run() {
   look_at_temperatures();
   if (words_.options.contacts.radius)
     say(report_.biot_numbers());
+  warn_of_neglected();
 }
 
 double FixHeat::compute_scalar() {

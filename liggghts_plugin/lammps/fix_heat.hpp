@@ -66,6 +66,8 @@ public:
   double step_with_gas(coupling::HeatState* states);
   /// Temperatures and heat capacities of the owned particles, and which stay as they are.
   void show_to_gas(coupling::ParticleView& view);
+  /// Adds what particles conduct, and their temperatures. Collective.
+  void describe(coupling::SceneState& scene);
 
 private:
   /// What the contacts of a particle bring it in this step.
@@ -75,6 +77,14 @@ private:
   };
 
   void check_script() const;
+  void choose_effects();
+  void find_law();
+  [[nodiscard]] coupling::SceneState scene();
+  void warn_of_neglected();
+  /// Temperatures stay as they are: chosen so, and no gas changes them.
+  [[nodiscard]] bool rests() const {
+    return words_.options.effects.given() && !touching_ && !steps_by_gas_;
+  }
   void check_pair_style() const;
   [[nodiscard]] int held_bits() const;
   void sum_contacts();
@@ -89,6 +99,9 @@ private:
   void say(const std::string& text) const;
 
   HeatWords words_;
+  driver::EffectSet available_; // of the words
+  bool chosen_ = false;         // effects are, and the table is printed
+  driver::EffectWatch watch_;
   particle_subset::ContactHeat law_;
   bool touching_ = false;     ///< contacts exchange or make heat
   int held_ = 0, frozen_ = 0; ///< groups: of fixed temperature, held in place

@@ -47,7 +47,38 @@ void refuse_what_lammps_has_not(const std::string& key, const std::string& value
 
 } // namespace
 
-HeatWords read_heat_words(std::span<char*> words, int types) {
+namespace {
+
+/// Takes the keyword effects out of the words; returns it as it is handed on to the shared
+/// keywords.
+std::vector<std::string> effects_of(std::vector<char*>& words,
+                                    std::span<const Property> properties) {
+  std::vector<std::string> keywords(driver::heat_keywords().begin(), driver::heat_keywords().end());
+  for (const Property& property : properties)
+    keywords.emplace_back(property.key);
+  const driver::EffectsWanted wanted =
+      driver::take_effects(words, driver::effects_of_heat, keywords);
+  for (const driver::Effect effect :
+       {driver::Effect::damping, driver::Effect::gas_gap, driver::Effect::radiation})
+    if (wanted.named.has(effect))
+      throw ConfigError(fmt::format("effects {}: with LIGGGHTS only (program granflux)",
+                                    driver::name_of(effect)));
+  if (!wanted.given())
+    return {};
+  std::vector<std::string> given{"effects"};
+  if (wanted.by == driver::EffectsWanted::By::numbers)
+    given.emplace_back("auto");
+  else if (!wanted.named.any())
+    given.emplace_back("none");
+  for (const driver::Effect effect : {driver::Effect::conduction, driver::Effect::friction})
+    if (wanted.named.has(effect))
+      given.emplace_back(driver::name_of(effect));
+  return given;
+}
+
+} // namespace
+
+HeatWords read_heat_words(std::span<char*> all_words, int types) {
   constexpr double large = 1e15;
   Property properties[] = {{"thermal_capacity", 0, large, {}},
                            {"thermal_conductivity", 0, large, {}},
@@ -55,6 +86,8 @@ HeatWords read_heat_words(std::span<char*> words, int types) {
                            {"poissons_ratio", -1, 0.5, {}}};
   auto& [capacity, conductivity, young, poisson] = properties;
 
+  std::vector<char*> words(all_words.begin(), all_words.end());
+  std::vector<std::string> effects = effects_of(words, properties);
   std::string friction = "friction", off = "off"; // what LAMMPS can always have
   std::vector<char*> shared{friction.data(), off.data()};
   for (std::size_t i = 0; i < words.size();) {
@@ -79,7 +112,10 @@ HeatWords read_heat_words(std::span<char*> words, int types) {
   }
 
   HeatWords read;
+  for (std::string& word : effects)
+    shared.push_back(word.data());
   read.options = driver::read_heat_options(shared);
+  read.options.contacts.damping = false; // LAMMPS does not hand its dashpots on
   const auto need = [](const Property& property, const char* why) {
     if (property.values.empty())
       throw ConfigError(fmt::format("keyword {} is missing: {}", property.key, why));
@@ -92,6 +128,7 @@ HeatWords read_heat_words(std::span<char*> words, int types) {
     need(young, "the true modulus of conduction hertz and geometric, Pa, one value a type");
     need(poisson, "of conduction hertz and geometric, one value a type");
   }
+  read.knows_moduli = !young.values.empty() && !poisson.values.empty();
   read.capacity = std::move(capacity.values);
   const auto value = [](const Property& property, std::size_t type, double otherwise) {
     return property.values.empty() ? otherwise : property.values[type];

@@ -15,9 +15,10 @@ struct HeatWords {
   driver::HeatOptions options;
   std::vector<double> capacity; ///< `thermal_capacity`, of each type [J/(kg K)]
   std::vector<particle_subset::ThermalMaterial> materials;
+  bool knows_moduli = false; ///< else those of the materials are of no use
 };
 
 /// `types`: of particles. Throws ConfigError that names the word and what is allowed.
-HeatWords read_heat_words(std::span<char*> words, int types);
+HeatWords read_heat_words(std::span<char*> all_words, int types);
 
 } // namespace granflux::lammps

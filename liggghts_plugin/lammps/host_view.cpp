@@ -101,6 +101,13 @@ std::optional<driver::GoodCheckpoint> HostView::last_checkpoint() {
   return fix ? fix->point().last() : std::nullopt;
 }
 
+void HostView::describe(coupling::SceneState& scene) {
+  describe_particles(*lmp, scene);
+  for (LAMMPS_NS::Fix* fix : std::span(modify->fix, std::size_t(modify->nfix)))
+    if (auto* heat = dynamic_cast<FixHeat*>(fix))
+      heat->describe(scene);
+}
+
 void HostView::say(const std::string& text) {
   if (comm->me != 0)
     return;

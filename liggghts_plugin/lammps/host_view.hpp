@@ -45,6 +45,7 @@ public:
   double step_temperatures() override;
   bool forces_come_back() override;
   std::optional<driver::GoodCheckpoint> last_checkpoint() override;
+  void describe(coupling::SceneState& scene) override;
   void say(const std::string& text) override;
 
 private:

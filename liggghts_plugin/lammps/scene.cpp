@@ -19,6 +19,8 @@
 #include <lammps/modify.h>
 #include <lammps/update.h>
 
+#include "driver/effects.hpp"
+
 namespace granflux::lammps {
 
 namespace {
@@ -80,6 +82,24 @@ driver::Scene scene_of(LAMMPS_NS::LAMMPS& lammps) {
   scene.largest_radius = largest_radius(lammps);
   scene.gravity = gravity(lammps);
   return scene;
+}
+
+void describe_particles(LAMMPS_NS::LAMMPS& lammps, coupling::SceneState& scene) {
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  const auto n = std::size_t(atom.nlocal);
+  const auto rows = [n](double** array) {
+    return n ? std::span<const Vec3>(reinterpret_cast<const Vec3*>(array[0]), n)
+             : std::span<const Vec3>();
+  };
+  driver::add_particles(scene,
+                        {.position = rows(atom.x),
+                         .velocity = rows(atom.v),
+                         .radius = {atom.radius, n},
+                         .mass = {atom.rmass, n}},
+                        gravity(lammps).value_or(Vec3{}), lammps.world);
+  for (int d = 0; d < 3; ++d)
+    scene.box_length =
+        std::max(scene.box_length, lammps.domain->boxhi[d] - lammps.domain->boxlo[d]);
 }
 
 } // namespace granflux::lammps

@@ -93,6 +93,16 @@ LAMMPS_NS::FixPropertyAtom* FixCouple::property(const char* name, int values, bo
 }
 
 void FixCouple::post_create() {
+  const std::string& held = gas_->options().fixed_group;
+  const int held_bit = held.empty() ? 0 : group->bitmask[group->find(held.c_str())];
+  host_ = std::make_unique<HostView>(lmp, groupbit, held_bit);
+  // A restart hands on what particles have before the first run only.
+  if (gas_->solves_gas() && (gas_->effects_are_chosen() || gas_->continues()))
+    make_properties();
+}
+
+/// What is not solved for holds no memory.
+void FixCouple::make_properties() {
   bool own_fluid = false;
   fluid_ = property(fluid_property, coupling::fluid_state_doubles, true, own_fluid);
   drag_force_ = property("dragforce", 3, false, own_drag_force_);
@@ -103,13 +113,11 @@ void FixCouple::post_create() {
     heat_states_ = property(heat_property, coupling::heat_state_doubles, true, own_states);
     gas_temperature_ = property(gas_temperature_property, 1, false, own_gas_temperature_);
   }
-  const std::string& held = gas_->options().fixed_group;
-  const int held_bit = held.empty() ? 0 : group->bitmask[group->find(held.c_str())];
-  host_ = std::make_unique<HostView>(lmp, *fluid_, groupbit, held_bit);
+  host_->set_fluid(*fluid_);
 }
 
 void FixCouple::pre_delete(bool unfix) {
-  if (!unfix)
+  if (!unfix || !fluid_)
     return;
   modify->delete_fix(fluid_property, true);
   if (heat_states_)
@@ -123,14 +131,20 @@ void FixCouple::pre_delete(bool unfix) {
 }
 
 void FixCouple::init() {
-  guard([&] { check_script(script_of(*lmp)); });
+  guard([&] {
+    check_script(script_of(*lmp));
+    gas_->choose_effects(*host_);
+    if (gas_->solves_gas() && !fluid_)
+      make_properties();
+  });
 }
 
 void FixCouple::setup(int) {
   guard([&] {
     host_->find_held();
     find_heat();
-    time_all_fixes();
+    if (gas_->solves_gas())
+      time_all_fixes();
     gas_->set_up(*host_, run_steps(), update->dt);
     fill_outputs();
     gas_->start_timers(); // LIGGGHTS' own begin after the set-up too
@@ -170,7 +184,8 @@ void FixCouple::pre_final_integrate() {
   const particle_subset::Lap lap(particle_subset::work_times().gas);
   guard([&] {
     if (!gas_->running()) { // a run without set-up (`run N pre no`)
-      time_all_fixes();
+      if (gas_->solves_gas())
+        time_all_fixes();
       gas_->begin_run(run_steps());
     }
     const bool coupling_step = gas_->step(*host_, long(update->ntimestep), update->dt);
@@ -180,6 +195,8 @@ void FixCouple::pre_final_integrate() {
 }
 
 void FixCouple::fill_outputs() {
+  if (!fluid_)
+    return;
   const coupling::ParticleView view = host_->particles(false);
   for (std::size_t i = 0; i < view.size(); ++i) {
     const coupling::FluidState& state = view.fluid[i];
@@ -196,7 +213,8 @@ void FixCouple::fill_outputs() {
 void FixCouple::post_run() {
   if (!gas_->running())
     return;
-  modify->timing = timing_of_script_;
+  if (gas_->solves_gas())
+    modify->timing = timing_of_script_;
   driver::RunTimes times;
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fix[i] != this)

@@ -30,10 +30,12 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/coupling/contact_heat/conductance.hpp>
 
+#include "fix_couple.hpp"
 #include "particle_subset/fix_wall_gran.hpp"
 #include "particle_subset/pair_gran.hpp"
 #include "particle_subset/team.hpp"
 #include "particle_subset/verlet.hpp"
+#include "scene.hpp"
 
 namespace granflux::liggghts {
 
@@ -48,6 +50,9 @@ namespace {
 template <class Row> Row* rows(const LAMMPS_NS::FixPropertyAtom& property) {
   return property.array_atom ? reinterpret_cast<Row*>(property.array_atom[0]) : nullptr;
 }
+
+/// Between two looks at whether what is off has come to count.
+constexpr int steps_between_looks = 1000;
 
 constexpr int doubles(std::size_t bytes) {
   return int(bytes / sizeof(double));
@@ -84,6 +89,7 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, 
                                     "temperatures stay",
                                     group->names[igroup]));
     options_ = driver::read_heat_options({arg + 3, std::size_t(narg - 3)});
+    available_ = options_.available();
     for (const std::string& name : options_.fixed_groups)
       if (group->find(name.c_str()) < 0)
         throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
@@ -92,7 +98,10 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, 
 
 int FixHeat::setmask() {
   using namespace LAMMPS_NS::FixConst;
-  return PRE_FORCE | PRE_FINAL_INTEGRATE | (options_.near.any() ? PRE_EXCHANGE : 0);
+  return PRE_FORCE | PRE_FINAL_INTEGRATE |
+         (available_.has(driver::Effect::gas_gap) || available_.has(driver::Effect::radiation)
+              ? PRE_EXCHANGE
+              : 0);
 }
 
 /// A fix property/atom of that name, made here unless there is one.
@@ -117,11 +126,25 @@ void FixHeat::post_create() {
   carry_ = property("granflux_temperature_carry", 1, true, false, 0);
   heat_flux_ = property("heatFlux", 1, false, false, 0);
   source_ = property("heatSource", 1, true, false, 0);
-  contacts_ = property("heatContact", doubles(sizeof(ContactHeatRates)), false, false, 0);
-  details_ = property("heatDetail", doubles(sizeof(HeatDetails)), false, false, 0);
-  walls_ = property("heatWall", doubles(sizeof(WallHeatRates)), false, false, 0);
-  parted_ = property("granflux_parted_heat", 1, true, false, 0);
-  near_ = property("heatNear", doubles(sizeof(NearHeatRates)), false, false, 0);
+  if (!options_.effects.given() || available_.has(driver::Effect::friction))
+    parted_ = property("granflux_parted_heat", 1, true, false, 0);
+  if (options_.effects.by != driver::EffectsWanted::By::numbers)
+    make_properties();
+}
+
+/// Of the effects that are on: others hold no memory. Where effects are not chosen scripts find
+/// all.
+void FixHeat::make_properties() {
+  const bool all = !options_.effects.given();
+  const bool near = all || options_.near.any(), touching = all || touches();
+  if ((touching || near) && !details_) {
+    contacts_ = property("heatContact", doubles(sizeof(ContactHeatRates)), false, false, 0);
+    details_ = property("heatDetail", doubles(sizeof(HeatDetails)), false, false, 0);
+  }
+  if (touching && !walls_)
+    walls_ = property("heatWall", doubles(sizeof(WallHeatRates)), false, false, 0);
+  if (near && !near_)
+    near_ = property("heatNear", doubles(sizeof(NearHeatRates)), false, false, 0);
 }
 
 void FixHeat::pre_delete(bool unfix) {
@@ -162,6 +185,7 @@ int FixHeat::held_bits() const {
 void FixHeat::init() {
   guard([&] {
     check_script();
+    choose_effects();
     materials_ = read_heat_materials(*lmp, options_);
     law_ = particle_subset::ContactHeat(options_.contacts, materials_.materials,
                                         materials_.overlap_ratio);
@@ -174,9 +198,14 @@ void FixHeat::init() {
       subsets_ = nullptr;
     pair_ = nullptr;
     if (subsets_) {
-      subsets_->set_heat(*this);
+      if (touches())
+        subsets_->set_heat(*this);
+      if (options_.near.any())
+        subsets_->set_near_heat(*this);
       return;
     }
+    if (!options_.available().any())
+      return;
     pair_ = dynamic_cast<LAMMPS_NS::PairGran*>(force->pair_match("gran", 0));
     if (!pair_)
       throw ConfigError("needs pair_style gran");
@@ -199,8 +228,10 @@ void FixHeat::setup_pre_exchange() {
 }
 
 void FixHeat::setup(int) {
+  near_seconds_ = step_seconds_ = particle_steps_ = 0;
   guard([&] {
-    link_walls();
+    if (touches())
+      link_walls();
     if (!heat_at_start_)
       heat_at_start_ = heat_of_all_ranks();
     if (!said_)
@@ -224,6 +255,59 @@ std::string FixHeat::effects() const {
       contacts.damping ? "on" : "off",
       gap ? fmt::format(", gas of {} W/(m K) in gaps", gap->conductivity) : "",
       surroundings ? fmt::format(", radiation, surroundings of {} K", *surroundings) : "");
+}
+
+/// Leaves to the numbers what the words leave to them, before the first run with particles.
+void FixHeat::choose_effects() {
+  if (chosen_ || !options_.effects.given())
+    return;
+  materials_ = read_heat_materials(*lmp, options_);
+  const coupling::SceneState found = scene();
+  if (options_.effects.by == driver::EffectsWanted::By::numbers) {
+    options_.keep(driver::decide(found, available_));
+    make_properties();
+  }
+  chosen_ = true;
+  watch_ = driver::EffectWatch(driver::effects_of_heat, available_, options_.available());
+  watch_.begin(found);
+  say(driver::effects_table(found, driver::effects_of_heat, available_, options_.available()));
+}
+
+coupling::SceneState FixHeat::scene() {
+  coupling::SceneState scene;
+  describe_particles(*lmp, scene);
+  describe(scene);
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const auto* couple = dynamic_cast<const FixCouple*>(modify->fix[i]))
+      couple->describe(scene);
+  return scene;
+}
+
+void FixHeat::describe(coupling::SceneState& scene) {
+  const HeatMaterials found = read_heat_materials(*lmp, options_);
+  coupling::HeatOfScene heat{.heat_capacity = found.capacity.front(),
+                             .conductivity = found.materials.front().conductivity};
+  if (options_.contacts.radius &&
+      std::visit([](const auto& r) { return r.needs_force; }, *options_.contacts.radius)) {
+    heat.young = found.materials.front().young;
+    heat.poisson = found.materials.front().poisson;
+  }
+  driver::add_near_heat(heat, options_.near, found.emissivity);
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const auto* wall = dynamic_cast<const particle_subset::FixWallGran*>(modify->fix[i]))
+      for (const double temperature : wall->temperatures())
+        scene.meets(temperature);
+  if (options_.near.surroundings)
+    scene.meets(*options_.near.surroundings);
+  driver::add_temperatures(scene, {temperature_->vector_atom, std::size_t(atom->nlocal)}, world);
+  scene.heat = heat;
+}
+
+void FixHeat::warn_of_neglected() {
+  if (!options_.effects.given())
+    return;
+  if (const std::string text = watch_.warnings(scene()); !text.empty())
+    say(text);
 }
 
 void FixHeat::link_walls() {
@@ -264,21 +348,30 @@ bool FixHeat::wants_details() const {
 particle_subset::HeatShown FixHeat::shown() const {
   if (!wants_details())
     return {};
+  if (!details_)
+    return {};
   return {.contacts = rows<ContactHeatRates>(*contacts_),
           .details = rows<HeatDetails>(*details_),
-          .walls = rows<WallHeatRates>(*walls_),
-          .near = rows<NearHeatRates>(*near_)};
+          .walls = walls_ ? rows<WallHeatRates>(*walls_) : nullptr,
+          .near = near_ ? rows<NearHeatRates>(*near_) : nullptr};
 }
 
 /// Ghosts take the temperature of their particles; sums start from zero.
 void FixHeat::pre_force(int) {
-  temperature_->do_forward_comm();
+  if (rests())
+    return;
+  if (options_.available().any())
+    temperature_->do_forward_comm();
   std::ranges::fill(sums_, HeatSums{});
+  if (!touches()) // else the contacts clear it
+    std::fill_n(heat_flux_->vector_atom, atom->nlocal, 0.0);
   if (const particle_subset::HeatShown shown = this->shown(); shown.wanted()) {
     std::fill_n(shown.contacts, atom->nlocal, ContactHeatRates{});
     std::fill_n(shown.details, atom->nlocal, HeatDetails{});
-    std::fill_n(shown.walls, atom->nlocal, WallHeatRates{});
-    std::fill_n(shown.near, atom->nlocal, NearHeatRates{});
+    if (shown.walls)
+      std::fill_n(shown.walls, atom->nlocal, WallHeatRates{});
+    if (shown.near)
+      std::fill_n(shown.near, atom->nlocal, NearHeatRates{});
   }
   if (pair_)
     conduct_by_shape();
@@ -320,8 +413,10 @@ void FixHeat::conduct_by_shape() {
 }
 
 void FixHeat::pre_final_integrate() {
-  if (!steps_by_gas_)
+  if (!steps_by_gas_ && !rests())
     step(nullptr);
+  if (options_.effects.given() && update->ntimestep % steps_between_looks == 0)
+    guard([&] { warn_of_neglected(); });
 }
 
 double FixHeat::step_with_gas(coupling::HeatState* states) {
@@ -352,7 +447,7 @@ double* FixHeat::parted_heat() {
 /// What springs of contacts held that had ended when the lists were built: in the step of the
 /// build, or the first one after that of a run's setup.
 void FixHeat::receive_parted_heat() {
-  if (neighbor->lastcall + 1 < update->ntimestep)
+  if (!parted_heat() || neighbor->lastcall + 1 < update->ntimestep)
     return;
   const particle_subset::HeatShown shown = this->shown();
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -368,9 +463,11 @@ void FixHeat::receive_parted_heat() {
 }
 
 void FixHeat::step(coupling::HeatState* gas) {
+  const double start = MPI_Wtime();
   receive_parted_heat();
   if (options_.near.any())
     subsets_->add_near_heat(near_law_, heat_of_contacts().arrays);
+  const double between = MPI_Wtime();
   const particle_subset::HeatedParticles particles{.temperature = temperature_->vector_atom,
                                                    .carry = carry_->vector_atom,
                                                    .heat_flux = heat_flux_->vector_atom,
@@ -403,9 +500,14 @@ void FixHeat::step(coupling::HeatState* gas) {
              .held = stepped.held,
              .radiation = contacts.radiation};
   books_.book(powers_, dt);
+  near_seconds_ += between - start;
+  step_seconds_ += MPI_Wtime() - between;
+  particle_steps_ += atom->nlocal;
 }
 
 void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles) const {
+  if (!details_)
+    return;
   const double number = conduction_number(shown(), particles, materials_.capacity, update->dt,
                                           {.begin = 0, .end = atom->nlocal});
   if (number > 1)
@@ -453,6 +555,10 @@ void FixHeat::post_run() {
   look_at_temperatures();
   if (options_.contacts.radius)
     say(report_.biot_numbers());
+  guard([&] { warn_of_neglected(); });
+  if (options_.effects.given())
+    say(driver::heat_cost(options_.available(), {near_seconds_, step_seconds_, particle_steps_},
+                          world));
 }
 
 double FixHeat::compute_scalar() {

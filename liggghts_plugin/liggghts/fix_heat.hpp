@@ -64,12 +64,29 @@ public:
   double step_with_gas(coupling::HeatState* states);
   /// Temperatures and heat capacities of the owned particles, and which stay as they are.
   void show_to_gas(coupling::ParticleView& view);
+  /// Adds what particles conduct and radiate, and the temperatures of particles and walls.
+  /// Collective.
+  void describe(coupling::SceneState& scene);
 
 private:
   template <class Work> void guard(Work&& work);
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool ghosts,
                                        double initial);
   void check_script() const;
+  void make_properties();
+  void choose_effects();
+  [[nodiscard]] coupling::SceneState scene();
+  void warn_of_neglected();
+  /// Contacts make or conduct heat.
+  [[nodiscard]] bool touches() const {
+    return options_.available().has(driver::Effect::conduction) ||
+           options_.available().has(driver::Effect::friction) ||
+           options_.available().has(driver::Effect::damping);
+  }
+  /// Temperatures stay as they are: chosen so, and no gas changes them.
+  [[nodiscard]] bool rests() const {
+    return options_.effects.given() && !options_.available().any() && !steps_by_gas_;
+  }
   [[nodiscard]] bool wants_details() const;
   void link_walls();
   void conduct_by_shape();
@@ -85,6 +102,10 @@ private:
   void say(const std::string& text) const;
 
   driver::HeatOptions options_;
+  driver::EffectSet available_; // of the words
+  bool chosen_ = false;         // effects are, and the table is printed
+  driver::EffectWatch watch_;
+  double near_seconds_ = 0, step_seconds_ = 0, particle_steps_ = 0; // of this rank and run
   HeatMaterials materials_;
   particle_subset::ContactHeat law_;
 

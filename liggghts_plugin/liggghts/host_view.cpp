@@ -30,9 +30,8 @@ template <class Row> std::span<Row> rows(double** array, std::size_t n) {
 
 } // namespace
 
-HostView::HostView(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::FixPropertyAtom& fluid, int group_bit,
-                   int held_bit)
-    : Pointers(lammps), fluid_(fluid), groups_(group_bit, held_bit) {}
+HostView::HostView(LAMMPS_NS::LAMMPS* lammps, int group_bit, int held_bit)
+    : Pointers(lammps), groups_(group_bit, held_bit) {}
 
 void HostView::find_held() {
   groups_.forget_fixes();
@@ -60,7 +59,7 @@ coupling::ParticleView HostView::particles(bool with_id) {
   view.force = rows<Vec3>(atom->f, n);
   view.radius = {atom->radius, n};
   view.mass = {atom->rmass, n};
-  view.fluid = rows<coupling::FluidState>(fluid_.array_atom, n);
+  view.fluid = rows<coupling::FluidState>(fluid_->array_atom, n);
   groups_.show({atom->mask, n}, view);
   if (heat_) {
     heat_->show_to_gas(view);
@@ -102,6 +101,13 @@ bool HostView::forces_come_back() {
 std::optional<driver::GoodCheckpoint> HostView::last_checkpoint() {
   const FixCheckpoint* fix = checkpoint();
   return fix ? fix->point().last() : std::nullopt;
+}
+
+void HostView::describe(coupling::SceneState& scene) {
+  describe_particles(*lmp, scene);
+  for (LAMMPS_NS::Fix* fix : std::span(modify->fix, std::size_t(modify->nfix)))
+    if (auto* heat = dynamic_cast<FixHeat*>(fix))
+      heat->describe(scene);
 }
 
 void HostView::say(const std::string& text) {

@@ -27,8 +27,10 @@ class FixHeat;
 class HostView : public driver::Host, private LAMMPS_NS::Pointers {
 public:
   /// group_bit: the particles that are coupled. held_bit: further particles held in place, or 0.
-  HostView(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::FixPropertyAtom& fluid, int group_bit,
-           int held_bit);
+  HostView(LAMMPS_NS::LAMMPS* lammps, int group_bit, int held_bit);
+
+  /// Where the gas is solved.
+  void set_fluid(LAMMPS_NS::FixPropertyAtom& fluid) { fluid_ = &fluid; }
 
   /// The fixes may have changed between runs: call before each.
   void find_held();
@@ -46,13 +48,14 @@ public:
   double step_temperatures() override;
   bool forces_come_back() override;
   std::optional<driver::GoodCheckpoint> last_checkpoint() override;
+  void describe(coupling::SceneState& scene) override;
   void say(const std::string& text) override;
 
 private:
   [[nodiscard]] const FixCheckpoint* checkpoint() const;
   [[nodiscard]] coupling::HeatState* heat_states() const;
 
-  LAMMPS_NS::FixPropertyAtom& fluid_;
+  LAMMPS_NS::FixPropertyAtom* fluid_ = nullptr;
   FixHeat* heat_ = nullptr;
   LAMMPS_NS::FixPropertyAtom* heat_states_ = nullptr;
   driver::ParticleGroups groups_;

@@ -87,10 +87,10 @@ public:
     kernel_->read(material, types);
   }
 
-  void build(Spheres& s, double skin) {
+  void build(Spheres& s, double skin, int at_rest = 0) {
     const auto n = std::size_t(s.count());
     count_.resize(n), partner_.resize(n), history_.resize(n);
-    lists_.build(s.view(), skin, threads_, kernel_->history_size(), {}, kept());
+    lists_.build(s.view(), skin, threads_, kernel_->history_size(), {}, kept(), at_rest);
   }
   void store(Spheres& s) { lists_.store(s.view(), kept()); }
 

@@ -197,6 +197,59 @@ TEST(Subset, RangesCoverAllAndBeginOnLines) {
     }
 }
 
+constexpr int resting = 2; // bit of a group
+
+TEST(ContactLists, PairsAtRestAreNotEvaluated) {
+  for (const int threads : {1, 3}) {
+    Spheres s = heap(6, 1.9e-3);
+    for (int p = 0; p < s.count() / 2; ++p)
+      s.groups[std::size_t(p)] |= resting;
+    Spheres all = s;
+    Contacts some_rest(all_laws, two_types(), 2, threads),
+        none_rests(all_laws, two_types(), 2, threads);
+    some_rest.build(s, skin, resting);
+    none_rests.build(all, skin);
+    for (int step = 0; step < 3; ++step) {
+      some_rest.forces(s, dt);
+      none_rests.forces(all, dt);
+    }
+    int differ = 0;
+    for (std::size_t p = 0; p < s.force.size(); ++p)
+      if (s.groups[p] & resting) {
+        differ += s.force[p] != all.force[p];
+      } else {
+        EXPECT_EQ(s.force[p], all.force[p]);
+        EXPECT_EQ(s.torque[p], all.torque[p]);
+      }
+    EXPECT_GT(differ, 50);
+  }
+}
+
+TEST(ContactLists, PairsAtRestRemember) {
+  for (const int threads : {1, 3}) {
+    Spheres s = heap(6, 1.9e-3);
+    s.groups.assign(s.groups.size(), resting);
+    Contacts rested(all_laws, two_types(), 2, threads), awake(all_laws, two_types(), 2, threads);
+    for (Contacts* contacts : {&rested, &awake}) {
+      contacts->build(s, skin);
+      for (int step = 0; step < 3; ++step)
+        contacts->forces(s, dt);
+      contacts->store(s);
+    }
+    rested.build(s, skin, resting);
+    rested.forces(s, dt);
+    EXPECT_EQ(s.force, std::vector<Vec3>(s.force.size()));
+    rested.store(s);
+    Spheres other = s;
+    rested.build(s, skin);
+    rested.forces(s, dt);
+    awake.build(other, skin);
+    awake.forces(other, dt);
+    EXPECT_EQ(s.force, other.force);
+    EXPECT_EQ(s.torque, other.torque);
+  }
+}
+
 TEST(ContactLists, NoParticlesAtAll) {
   Spheres s;
   Contacts contacts(all_laws, two_types(), 2, 2);

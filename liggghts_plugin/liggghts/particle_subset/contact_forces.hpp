@@ -38,8 +38,9 @@ private:
     int count = 0;
     const int last = int(rows.partner.size()) - 1;
     const int end_row = particles.end - own_.begin;
+    const int* const ends = rows.work_ends();
     for (int row = particles.begin - own_.begin; row < end_row; ++row) {
-      const int end = rows.row_end(row);
+      const int end = ends[row];
       for (int e = rows.row_begin(row); e < end; ++e) {
         prefetch_place(rows.partner[std::size_t(std::min(e + ahead, last))]);
         const int partner = rows.partner[std::size_t(e)];

@@ -68,7 +68,7 @@ double largest_radius(const Particles& particles, int threads) {
 } // namespace
 
 void ContactLists::build(const Particles& particles, double skin, int threads, int history_size,
-                         const Excluded& excluded, const PartnerHistory& kept) {
+                         const Excluded& excluded, const PartnerHistory& kept, int at_rest) {
   subset_ = Subset(particles.owned, threads);
   history_size_ = history_size;
   threads_.resize(std::size_t(threads));
@@ -78,7 +78,7 @@ void ContactLists::build(const Particles& particles, double skin, int threads, i
   for (int thread = 0; thread < threads; ++thread) {
     ThreadContacts& mine = of(thread);
     mine.own = subset_.of(thread);
-    build_rows(particles, skin, excluded, kept, mine);
+    build_rows(particles, skin, excluded, kept, at_rest, mine);
     find_reach(mine);
   }
 }
@@ -146,8 +146,25 @@ void ContactLists::find_coincident(const Particles& particles, Range own, int ro
     }
 }
 
+void ContactLists::put_resting_last(const Particles& particles, Range own, int at_rest,
+                                    ContactRows& rows) {
+  rows.work_end.clear();
+  if (!at_rest)
+    return;
+  const auto rests = [&](int p) { return (particles.groups[p] & at_rest) != 0; };
+  for (int row = 0; row < own.size(); ++row) {
+    const auto begin = rows.partner.begin() + rows.row_begin(row),
+               end = rows.partner.begin() + rows.row_end(row);
+    const auto first_resting =
+        rests(own.begin + row) ? std::stable_partition(begin, end, [&](int p) { return !rests(p); })
+                               : end;
+    rows.work_end.push_back(int(first_resting - rows.partner.begin()));
+  }
+}
+
 void ContactLists::build_rows(const Particles& particles, double skin, const Excluded& excluded,
-                              const PartnerHistory& kept, ThreadContacts& contacts) const {
+                              const PartnerHistory& kept, int at_rest,
+                              ThreadContacts& contacts) const {
   const Range own = contacts.own;
   ContactRows& lower = contacts.lower;
   ContactRows& upper = contacts.upper;
@@ -171,6 +188,8 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
     if (here > 1)
       find_coincident(particles, own, i - own.begin, contacts);
   }
+  for (ContactRows* rows : {&lower, &upper})
+    put_resting_last(particles, own, at_rest, *rows);
   const HistoryLookup lookup(particles, kept, history_size_);
   lookup.restore(lower, own.size(), [&](int row, int p) { return std::pair(p, own.begin + row); });
   lookup.restore(upper, own.size(), [&](int row, int p) { return std::pair(own.begin + row, p); });
@@ -251,7 +270,8 @@ double ContactLists::memory() const {
   std::size_t bytes = 0;
   for (const ThreadContacts& t : threads_)
     for (const ContactRows* rows : {&t.lower, &t.upper})
-      bytes += (rows->begin.capacity() + rows->partner.capacity() + rows->flags.capacity()) *
+      bytes += (rows->begin.capacity() + rows->work_end.capacity() + rows->partner.capacity() +
+                rows->flags.capacity()) *
                    sizeof(int) +
                rows->history.capacity() * sizeof(double);
   for (const Kept& kept : kept_)

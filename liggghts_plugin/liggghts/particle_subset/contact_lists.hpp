@@ -14,13 +14,20 @@ namespace granflux::particle_subset {
 
 /// Partners of the particles of one range, row by row, with what their contacts remember.
 struct ContactRows {
-  std::vector<int> begin;      ///< of each row in the arrays below, and the end
+  std::vector<int> begin; ///< of each row in the arrays below, and the end
+  /// End of each row's pairs that are evaluated; pairs of two particles at rest come last. Empty:
+  /// all are evaluated.
+  std::vector<int> work_end;
   std::vector<int> partner;    ///< numbers of particles
   std::vector<int> flags;      ///< not 0 once a pair has touched
   std::vector<double> history; ///< history_size doubles a pair, seen from its lower number
 
   [[nodiscard]] int row_begin(int row) const { return begin[std::size_t(row)]; }
   [[nodiscard]] int row_end(int row) const { return begin[std::size_t(row) + 1]; }
+  /// The ends of what is evaluated, row by row.
+  [[nodiscard]] const int* work_ends() const {
+    return work_end.empty() ? begin.data() + 1 : work_end.data();
+  }
 };
 
 /// What one thread works on. A pair of which both particles are its own is held once; a pair that
@@ -80,9 +87,10 @@ public:
   using Excluded = std::function<bool(int, int)>; ///< empty: no pair is
 
   /// Pairs up to radius_i + radius_j + skin apart. Pairs that touch find their history in `kept`
-  /// under the tag of their partner.
+  /// under the tag of their partner. `at_rest`: group bit of particles that nothing moves; pairs of
+  /// two of them are held, but not evaluated. 0: none.
   void build(const Particles& particles, double skin, int threads, int history_size,
-             const Excluded& excluded, const PartnerHistory& kept);
+             const Excluded& excluded, const PartnerHistory& kept, int at_rest = 0);
 
   /// The way back: what touched since the build, for each owned particle. The arrays that the
   /// pointers in `kept` lead to are held here until the next call.
@@ -100,7 +108,7 @@ public:
 
 private:
   void build_rows(const Particles& particles, double skin, const Excluded& excluded,
-                  const PartnerHistory& kept, ThreadContacts& contacts) const;
+                  const PartnerHistory& kept, int at_rest, ThreadContacts& contacts) const;
   struct Found {
     int partners = 0;
     int here = 0; ///< particles at the very place of this one, itself among them
@@ -110,6 +118,8 @@ private:
   static void find_coincident(const Particles& particles, Range own, int row,
                               ThreadContacts& contacts);
   static void find_reach(ThreadContacts& contacts);
+  static void put_resting_last(const Particles& particles, Range own, int at_rest,
+                               ContactRows& rows);
 
   struct Kept {
     std::vector<int> partner;

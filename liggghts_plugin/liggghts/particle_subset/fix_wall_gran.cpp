@@ -235,6 +235,19 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
   return true;
 }
 
+std::vector<double> FixWallGran::temperatures() const {
+  if (meshwall_ != 1)
+    return Temp_wall >= 0 ? std::vector<double>{Temp_wall} : std::vector<double>{};
+  std::vector<double> found;
+  for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
+    if (auto* temperature = FixMesh_list_[mesh]
+                                ->triMesh()
+                                ->prop()
+                                .getGlobalProperty<LAMMPS_NS::ScalarContainer<double>>("Temp"))
+      found.push_back((*temperature)(0));
+  return found;
+}
+
 /// Of this moment; of the primitive if there are no triangles.
 HeatOfWall FixWallGran::heat_of_wall(LAMMPS_NS::TriMesh* triangles) const {
   HeatOfWall heat{.contacts = heat_->heat_of_contacts(), .temperature = {}};

@@ -42,6 +42,9 @@ public:
   /// stands against that with this law, or an empty text.
   [[nodiscard]] std::string set_heat(HeatPort& heat, const ContactHeat& law);
 
+  /// Those that it has: of the primitive, or of meshes [K].
+  [[nodiscard]] std::vector<double> temperatures() const;
+
 protected:
   void post_force_mesh(int vflag) override;
 

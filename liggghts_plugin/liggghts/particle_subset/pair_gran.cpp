@@ -110,7 +110,7 @@ void PairGran::init_style() {
   if (by_subset != by_subset_ && computeflag_ && fix_history)
     fix_history->setup_pre_exchange();
   by_subset_ = by_subset;
-  heat_ = nullptr;
+  heat_ = near_heat_ = nullptr;
   needs_neighlist = !by_subset;
   PairGranProxy::init_style();
   if (by_subset) {
@@ -221,9 +221,11 @@ void PairGran::build_lists() {
   PartnerHistory kept;
   if (auto* fix = dynamic_cast<FixContactHistory*>(fix_history))
     kept = fix->arrays();
-  const double reach = heat_ ? heat_->reach() : 0;
+  const double reach = near_heat_ ? near_heat_->reach() : 0;
+  // Forces between frozen particles move nothing; heat does go through their contacts.
+  const int at_rest = heat_ || near_heat_ ? 0 : freeze_group_bit();
   lists_.build(particles(), neighbor->skin + reach, omp_get_max_threads(), kernel_->history_size(),
-               excluded, kept);
+               excluded, kept, at_rest);
   refuse_coincident();
   show_lists_to_host();
 }

@@ -55,6 +55,8 @@ public:
 
   /// From here on, until the next init_style(), contacts make heat too. Only by particle subset.
   void set_heat(HeatPort& heat) { heat_ = &heat; }
+  /// Likewise for heat between particles that need not touch: lists reach as far.
+  void set_near_heat(HeatPort& heat) { near_heat_ = &heat; }
   /// Adds the heat between particles near each other, touching or not, of the step whose contacts
   /// were computed last.
   void add_near_heat(const NearHeat& law, const HeatArrays& arrays);
@@ -73,9 +75,10 @@ private:
   std::unique_ptr<ContactKernel> kernel_;
   std::string unknown_law_; // why there is no kernel
   bool by_subset_ = false;
-  HeatPort* heat_ = nullptr;   // null: none
-  HeatOfContacts heat_now_;    // of this step
-  std::vector<double> facing_; // of NearHeat, of each owned particle
+  HeatPort* heat_ = nullptr;      // of contacts; null: none
+  HeatPort* near_heat_ = nullptr; // of near particles; null: none
+  HeatOfContacts heat_now_;       // of this step
+  std::vector<double> facing_;    // of NearHeat, of each owned particle
   ContactLists lists_;
   // The same lists in the form in which LIGGGHTS' loop, fixes and computes read them.
   std::unique_ptr<LAMMPS_NS::NeighList> shown_, shown_history_;

@@ -77,7 +77,8 @@ double conduction_number(const HeatShown& shown, const HeatedParticles& p,
   double largest = 0;
   for (int i = range.begin; i < range.end; ++i) {
     const double mc = p.mass[i] * capacity[std::size_t(p.type[i]) - 1];
-    const double conductance = shown.details[i].conductance + shown.near[i].conductance;
+    const double conductance =
+        shown.details[i].conductance + (shown.near ? shown.near[i].conductance : 0);
     largest = std::max(largest, dt * conductance / mc);
   }
   return largest;

@@ -17,6 +17,18 @@ namespace granflux::coupling {
 /// the particles' share folded into the drag (beta_B = beta_A / eps).
 enum class MomentumModel { a, b };
 
+/// What gas and particles do to each other; what is off is not computed.
+struct ExchangeEffects {
+  /// Particles displace the gas and take momentum and heat out of it. Off: it flows as if there
+  /// were none, and its books of the exchange stay at zero.
+  bool two_way = true;
+  bool drag = true;
+  /// Pressure gradient and buoyancy act on particles.
+  bool pressure_gradient = true;
+
+  [[nodiscard]] bool any_force() const { return drag || pressure_gradient; }
+};
+
 /// The [coupling] table of the case file.
 struct CouplingOptions {
   std::string drag = "gidaspow";           ///< a name of DragLaws
@@ -27,6 +39,7 @@ struct CouplingOptions {
   MomentumModel model = MomentumModel::a;
   /// A cell below this void fraction stops the run; nothing is clamped.
   double void_fraction_floor = 0.05;
+  ExchangeEffects effects;
 };
 
 /// Sums over all ranks at one coupling step; equal on every rank.
