@@ -24,6 +24,7 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/gas_solver.hpp>
 #include <granflux/cfd/mesh_quality.hpp>
+#include <granflux/cfd/out_of_memory.hpp>
 #include <granflux/cfd/read_gas_case.hpp>
 #include <granflux/version.hpp>
 
@@ -367,6 +368,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, ask_to_stop);
   std::signal(SIGUSR2, ask_to_stop); // what mpirun hands on
   std::signal(SIGXFSZ, SIG_IGN);     // a file that may not grow is an error of its write
+  explain_out_of_memory();
   int provided = 0, rank = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

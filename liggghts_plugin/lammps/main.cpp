@@ -18,6 +18,7 @@
 #include <lammps/lammps.h>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/out_of_memory.hpp>
 #include <granflux/version.hpp>
 
 #include "driver/command_line.hpp"
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of its write
+  granflux::explain_out_of_memory();
   MPI_Init(&argc, &argv);
   try {
     pass_on_threads(granflux::driver::take_threads(argc, argv));

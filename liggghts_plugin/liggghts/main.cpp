@@ -20,6 +20,7 @@
 #include <liggghts/universe.h>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/cfd/out_of_memory.hpp>
 #include <granflux/version.hpp>
 
 #include "driver/peak_memory.hpp"
@@ -86,6 +87,7 @@ int main(int argc, char** argv) {
   install_signal_handlers();
   // An error of one rank ends the program without flushing: its message must be out line by line.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  granflux::explain_out_of_memory();
   MPI_Init(&argc, &argv);
   try {
     granflux::liggghts::take_launch_options(argc, argv);

@@ -166,6 +166,10 @@ sed 's/"z_high"/"z_low"/' good.toml >overlap.toml
 expect 1 'error: overlap.toml: boundaries "bottom" and "top" overlap' overlap.toml
 sed 's/cells = .*/cells = [1, 1, 1]\nblocks = [1, 2, 1]/' good.toml >blocks.toml
 expect 1 'error: blocks.toml: [grid] blocks: ' blocks.toml
+sed 's/cells = .*/cells = [400, 400, 400]/' good.toml >large.toml
+if ((${#launch[@]} == 0)); then # of several ranks each may tell
+  (ulimit -v 1500000 && expect 1 "error: out of memory: this rank " large.toml && exit "$failures") || failures=$((failures + 1))
+fi
 
 if ((failures)); then
   echo "$failures failures"

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <vector>
 
 #include <granflux/cfd/field.hpp>
+#include <granflux/cfd/out_of_memory.hpp>
 #include <granflux/cfd/sweep.hpp>
 
 namespace granflux::cfd {
@@ -49,7 +49,7 @@ public:
   explicit FloatField(std::size_t size)
       : size_(size), values_(static_cast<float*>(std::aligned_alloc(alignment, bytes(size)))) {
     if (!values_)
-      throw std::bad_alloc();
+      throw OutOfMemory(double(bytes(size)));
     const auto n = std::ptrdiff_t(bytes(size) / sizeof(float));
     float* v = values_.get();
 #pragma omp parallel for schedule(static) if (n >= smallest_parallel_sweep)
