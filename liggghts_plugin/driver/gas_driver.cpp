@@ -21,6 +21,12 @@ namespace {
 constexpr double stiffness_limit = 1.5; // docs/theory_coupling.md, section 7
 constexpr double half_kick = 0.5;       // of velocity Verlet: before and after the force
 
+std::string last_good_state(const std::optional<GoodCheckpoint>& checkpoint) {
+  return checkpoint ? fmt::format("last good state: checkpoint {} of step {}", checkpoint->file,
+                                  checkpoint->step)
+                    : "no state was kept: fix granflux/checkpoint keeps them";
+}
+
 /// Continues on one rank what it did before, up to the rounding of the next file's time.
 constexpr double time_rounding = 1e-9;
 
@@ -220,20 +226,21 @@ void GasDriver::set_up(Host& host, RunSteps steps, double dt) {
   });
   begin_run(steps);
   clock_.set_time_step(dt);
-  if (host.forces_come_back())
-    return; // those of the last step, and its impulses are in the books
+  // Those of the last step come back, and its impulses are in the books.
+  const bool forces_are_known = host.forces_come_back();
 
   // The last run ended, or its restart file was written, with a force whose second half the
   // integrator never applied: the host has just computed all forces anew.
-  if (last_force_dt_ > 0)
+  if (last_force_dt_ > 0 && !forces_are_known)
     coupler_->unapply(host.particles(false), last_force_dt_, half_kick);
-  if (clock_.due())
+  if (clock_.due() && !forces_are_known)
     exchange(host, steps.first);
   else
     explaining(host, steps.first, [&] { look(host, host.particles(true)); });
   host.say(stable_->table());
   warn_of_limits(host);
-  apply(host, half_kick);
+  if (!forces_are_known)
+    apply(host, half_kick);
 }
 
 void GasDriver::begin_run(RunSteps steps) {
@@ -313,10 +320,9 @@ template <class Work> void GasDriver::explaining(Host& host, long step, Work&& w
     work();
   } catch (const NumericalError& error) {
     warn_of_limits(host);
-    const std::optional<GoodCheckpoint> last = host.last_checkpoint();
-    throw NumericalError(fmt::format(
-        "step {}: {}; {}{}", step, error.what(), stable_->likely_cause(),
-        last ? fmt::format("; last checkpoint: {} of step {}", last->file, last->step) : ""));
+    throw NumericalError(fmt::format("step {}: {}; {}; {}", step, error.what(),
+                                     stable_->likely_cause(),
+                                     last_good_state(host.last_checkpoint())));
   }
 }
 

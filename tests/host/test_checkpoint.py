@@ -206,7 +206,7 @@ class Checkpoint(HostTest):
         fails = "run 60\nset group all density 1000 diameter 3e-3\nrun 10\n"
         code, output = self.start(self.begin(50) + fails)
         self.assertNotEqual(code, 0)
-        self.assertIn("last checkpoint: bed.checkpoint of step 50", output)
+        self.assertIn("last good state: checkpoint bed.checkpoint of step 50", output)
 
     def test_bad_input(self):
         physics = self.begin().replace(fix(60), "{}\n")

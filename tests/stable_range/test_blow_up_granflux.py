@@ -5,7 +5,7 @@
 import time
 import unittest
 
-from host import CASE, GRANFLUX, HostTest, bed, couple, thermo
+from host import CASE, GRANFLUX, HostTest, bed, bed_from, couple, thermo, thermo_rows
 
 STEP = "timestep        1e-5"
 LONGEST = 60  # s from start to end of a run that fails, on a machine full of others
@@ -101,7 +101,20 @@ class BlowUp(HostTest):
         self.fails(
             script, "step 50: particle 57 at (", "not a number",
             "no number of the stable range was beyond its limit: look at forces, velocities and temperatures",
+            "no state was kept: fix granflux/checkpoint keeps them",
         )
+
+    def test_last_good_state_is_named_and_kept(self):
+        keep = "fix keep all granflux/checkpoint kept every 20\n"
+        script = (
+            bed_with("5e-6") + "group one id 57\n" + couple() + keep + thermo()
+            + "run 50\nvariable bad equal exp(1000)-exp(1000)\nvelocity one set v_bad NULL NULL\nrun 50\n"
+        )
+        self.fails(script, "last good state: checkpoint kept of step 40", ranks=(1,))
+        again = bed_from("kept").replace(STEP, "timestep 5e-6") + couple() + thermo() + "run 40\n"
+        output = self.run_script(again)
+        self.assertIn("granflux: stable range", output)
+        self.assertEqual(thermo_rows(output)[-1][0], 80)
 
     def test_runs_of_particles_alone(self):
         """Said once, where the time step is too long; the steps themselves are as they were."""
