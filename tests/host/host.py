@@ -182,6 +182,11 @@ class HostTest(unittest.TestCase):
         )
         return done.returncode, done.stdout
 
+    def start_limited(self, script, limit, ranks=1):
+        """start() under a limit of the shell on each rank, such as "ulimit -f 100;" (KiB a file)."""
+        self.write("in.test", script)
+        return self.launch("bash", ["-c", f"{limit} exec {GRANFLUX} -in in.test"], ranks)
+
     def run_script(self, script, ranks=1, program=GRANFLUX, options=()):
         code, output = self.start(script, ranks, program, options)
         self.assertEqual(code, 0, output)

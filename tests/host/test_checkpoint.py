@@ -160,12 +160,9 @@ class Checkpoint(HostTest):
         self.run_script(self.begin(50, "first") + "run 60\n")
         before = (self.folder / "bed.checkpoint").read_bytes()
         self.assertGreater(len(before), 200 * 1024)
-        self.write("in.test", self.begin(50) + "run 100\n")
-        limited = f"ulimit -f 100; exec {GRANFLUX} -in in.test"  # KiB a file
-        command = [*MPIRUN, "--timeout", "60", "--mca", "btl", "tcp,self", "-n", "2", "bash", "-c", limited]
-        done = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=70)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("checkpoint bed.checkpoint: File too large", done.stdout)
+        code, output = self.start_limited(self.begin(50) + "run 100\n", "ulimit -f 100;", 2)
+        self.assertNotEqual(code, 0)
+        self.assertIn("checkpoint bed.checkpoint: File too large", output)
         self.assertEqual((self.folder / "bed.checkpoint").read_bytes(), before)
         self.assertFalse((self.folder / "bed.checkpoint.part").exists())
         self.run_script(self.go_on(50) + "run 10\n")
