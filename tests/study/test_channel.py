@@ -40,10 +40,9 @@ class Channel(unittest.TestCase):
     def test_from_end_to_end(self):
         done = self.study("--error", "0.05", "--jobs", "2")
         self.assertEqual(done.returncode, 0, done.stderr)
-        rows = self.rows()
         # Which combinations are tried hangs on the costs; upwind2 with the long step may end at its Courant limit.
-        errors = {name: float(row["error"]) for name, row in rows.items() if not row["failure"]}
-        self.assertLessEqual({name for name in rows if "," not in name}, set(errors))
+        rows = {name: row for name, row in self.rows().items() if "," not in name or not row["failure"]}
+        errors = {name: float(row["error"]) for name, row in rows.items()}
         # Second order in the cells across; beyond, the gas step is what is left.
         self.assertAlmostEqual(errors["cells across 8"] / errors["cells across 16"], 4.0, delta=0.3)
         self.assertLess(errors["base"], 0.003)
