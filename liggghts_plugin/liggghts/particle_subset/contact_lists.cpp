@@ -15,6 +15,11 @@ namespace {
   return dot(d, d);
 }
 
+bool apart(const Particles& particles, int i, int j, double margin) {
+  const double reach = particles.radius[i] + particles.radius[j] + margin;
+  return distance_squared(particles.position[i], particles.position[j]) >= reach * reach;
+}
+
 /// Restores what a pair remembers, if it touches now and did so before.
 class HistoryLookup {
 public:
@@ -22,8 +27,10 @@ public:
       : particles_(particles), kept_(kept), size_(size) {}
 
   /// Fills flags and history of all rows; the pair (lower number, higher number) of a row and a
-  /// partner is given by `ordered`.
-  template <class Ordered> void restore(ContactRows& rows, int rows_count, Ordered ordered) const {
+  /// partner is given by `ordered`. What touches no longer goes into `parted`.
+  template <class Ordered>
+  void restore(ContactRows& rows, int rows_count, Ordered ordered,
+               std::vector<PartedPair>& parted) const {
     rows.flags.assign(rows.partner.size(), 0);
     rows.history.assign(rows.partner.size() * std::size_t(size_), 0.0);
     if (size_ == 0)
@@ -31,7 +38,12 @@ public:
     for (int row = 0; row < rows_count; ++row)
       for (int e = rows.row_begin(row); e < rows.row_end(row); ++e) {
         const auto [i, j] = ordered(row, rows.partner[std::size_t(e)]);
-        if (const double* found = find(i, j)) {
+        const double* found = find(i, j);
+        if (!found)
+          continue;
+        if (apart(particles_, i, j, 0)) {
+          parted.push_back({i, j, found});
+        } else {
           rows.flags[std::size_t(e)] = 1;
           std::copy_n(found, size_, &rows.history[std::size_t(e) * std::size_t(size_)]);
         }
@@ -45,11 +57,7 @@ private:
       return nullptr;
     const int* tags = kept_.partner[i];
     const int* found = std::find(tags, tags + count, particles_.tag[j]);
-    const double radii = particles_.radius[i] + particles_.radius[j];
-    if (found == tags + count ||
-        distance_squared(particles_.position[i], particles_.position[j]) >= radii * radii)
-      return nullptr;
-    return kept_.history[i] + (found - tags) * size_;
+    return found == tags + count ? nullptr : kept_.history[i] + (found - tags) * size_;
   }
 
   const Particles& particles_;
@@ -174,6 +182,7 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
     rows->begin.reserve(std::size_t(own.size()) + 1);
   }
   contacts.coincident.clear();
+  contacts.parted.clear();
   std::vector<int> found;
   for (int i = own.begin; i < own.end; ++i) {
     const auto [partners, here] = find_partners(particles, skin, own, i, found);
@@ -191,8 +200,34 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
   for (ContactRows* rows : {&lower, &upper})
     put_resting_last(particles, own, at_rest, *rows);
   const HistoryLookup lookup(particles, kept, history_size_);
-  lookup.restore(lower, own.size(), [&](int row, int p) { return std::pair(p, own.begin + row); });
-  lookup.restore(upper, own.size(), [&](int row, int p) { return std::pair(own.begin + row, p); });
+  lookup.restore(
+      lower, own.size(), [&](int row, int p) { return std::pair(p, own.begin + row); },
+      contacts.parted);
+  lookup.restore(
+      upper, own.size(), [&](int row, int p) { return std::pair(own.begin + row, p); },
+      contacts.parted);
+}
+
+void ContactLists::part_far(const Particles& particles, double margin) {
+  const auto size = std::size_t(history_size_);
+#pragma omp parallel for num_threads(subset_.threads()) schedule(static, 1)
+  for (int thread = 0; thread < subset_.threads(); ++thread) {
+    ThreadContacts& contacts = of(thread);
+    contacts.parted.clear();
+    const auto along = [&](ContactRows& rows) {
+      for (int row = 0; row < contacts.own.size(); ++row)
+        for (int e = rows.row_begin(row); e < rows.row_end(row); ++e) {
+          const int p = contacts.own.begin + row, other = rows.partner[std::size_t(e)];
+          if (!rows.flags[std::size_t(e)] || !apart(particles, p, other, margin))
+            continue;
+          rows.flags[std::size_t(e)] = 0;
+          contacts.parted.push_back({std::min(p, other), std::max(p, other),
+                                     rows.history.data() + std::size_t(e) * size});
+        }
+    };
+    along(contacts.lower);
+    along(contacts.upper);
+  }
 }
 
 void ContactLists::store(const Particles& particles, PartnerHistory kept) {

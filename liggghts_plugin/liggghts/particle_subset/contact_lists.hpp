@@ -30,6 +30,12 @@ struct ContactRows {
   }
 };
 
+/// A pair that touched and no longer does, i < j, and what its contact remembered.
+struct PartedPair {
+  int i, j;
+  const double* history;
+};
+
 /// What one thread works on. A pair of which both particles are its own is held once; a pair that
 /// crosses subsets is held by both owners, each of which adds to its own particle only.
 struct ThreadContacts {
@@ -41,33 +47,14 @@ struct ThreadContacts {
   std::vector<int> reach;
   /// Pairs at the very same place, not both of the frozen group: their contact has no direction.
   std::vector<std::pair<int, int>> coincident;
+  /// Of the last part_far() or build(), each pair in one of them; until the next store().
+  std::vector<PartedPair> parted;
 
   [[nodiscard]] int reach_of_lower() const { return reach.front(); }
   [[nodiscard]] int reach_of_block(Range block) const {
     return reach[std::size_t((block.end - own.begin + Subset::block - 1) / Subset::block)];
   }
 };
-
-/// Calls visit(i, j, history), i < j, for the pairs of one thread that touched since the build and
-/// no longer do.
-template <class Visit>
-void for_each_parted(const Particles& particles, const ThreadContacts& contacts, int history_size,
-                     Visit&& visit) {
-  const auto along = [&](const ContactRows& rows, auto ordered) {
-    for (int row = 0; row < contacts.own.size(); ++row)
-      for (int e = rows.row_begin(row); e < rows.row_end(row); ++e) {
-        if (!rows.flags[std::size_t(e)])
-          continue;
-        const auto [i, j] = ordered(contacts.own.begin + row, rows.partner[std::size_t(e)]);
-        const Vec3 separation = particles.position[i] - particles.position[j];
-        const double radii = particles.radius[i] + particles.radius[j];
-        if (dot(separation, separation) >= radii * radii)
-          visit(i, j, &rows.history[std::size_t(e) * std::size_t(history_size)]);
-      }
-  };
-  along(contacts.lower, [](int own, int partner) { return std::pair(partner, own); });
-  along(contacts.upper, [](int own, int partner) { return std::pair(own, partner); });
-}
 
 /// What each particle remembers of its contacts while pairs are not in lists: as the host keeps it
 /// across exchange, sorting and restarts.
@@ -91,6 +78,11 @@ public:
   /// two of them are held, but not evaluated. 0: none.
   void build(const Particles& particles, double skin, int threads, int history_size,
              const Excluded& excluded, const PartnerHistory& kept, int at_rest = 0);
+
+  /// Before store(): lets go of pairs that touched and are apart by `margin` or more, which the
+  /// next lists may not hold. Positions of ghosts may be a step old: the sides of a pair on two
+  /// ranks then part one here and one in build().
+  void part_far(const Particles& particles, double margin);
 
   /// The way back: what touched since the build, for each owned particle. The arrays that the
   /// pointers in `kept` lead to are held here until the next call.

@@ -41,7 +41,7 @@ public:
   void add_parted(const Particles& particles, const ThreadContacts& contacts,
                   const ContactHeat& law, double* heat) const override {
     if constexpr (Law::history > 0) {
-      const auto add = [&](int i, int j, const double* history) {
+      for (const auto& [i, j, history] : contacts.parted) {
         const double ri = particles.radius[i], rj = particles.radius[j];
         const int type_i = particles.type[i], type_j = particles.type[j];
         const auto& k = constants_[std::size_t((type_i - 1) * types_ + type_j - 1)];
@@ -52,8 +52,7 @@ public:
           heat[i] += share * energy;
         if (contacts.own.holds(j))
           heat[j] += (1 - share) * energy;
-      };
-      for_each_parted(particles, contacts, Law::history, add);
+      }
     }
   }
 

@@ -227,6 +227,7 @@ void PairGran::build_lists() {
   lists_.build(particles(), neighbor->skin + reach, omp_get_max_threads(), kernel_->history_size(),
                excluded, kept, at_rest);
   refuse_coincident();
+  add_parted_heat();
   show_lists_to_host();
 }
 
@@ -312,14 +313,23 @@ void PairGran::add_near_heat(const NearHeat& law, const HeatArrays& arrays) {
 }
 
 void PairGran::store_history(PartnerHistory kept) {
-  if (double* heat = heat_ ? heat_->parted_heat() : nullptr) {
-    const Particles all = particles();
-    const ContactHeat& law = *heat_->heat_of_contacts().law;
-#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
-    for (int thread = 0; thread < lists_.subset().threads(); ++thread)
-      kernel_->add_parted(all, lists_.of(thread), law, heat);
+  if (heat_ && heat_->parted_heat()) {
+    lists_.part_far(particles(), 0.5 * neighbor->skin);
+    add_parted_heat();
   }
   lists_.store(particles(), kept);
+}
+
+/// What springs hold whose contacts have ended becomes heat.
+void PairGran::add_parted_heat() {
+  double* const heat = heat_ ? heat_->parted_heat() : nullptr;
+  if (!heat)
+    return;
+  const Particles all = particles();
+  const ContactHeat& law = *heat_->heat_of_contacts().law;
+#pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
+  for (int thread = 0; thread < lists_.subset().threads(); ++thread)
+    kernel_->add_parted(all, lists_.of(thread), law, heat);
 }
 
 } // namespace granflux::particle_subset

@@ -67,6 +67,7 @@ private:
   [[nodiscard]] const HeatOfContacts* heat() const { return heat_ ? &heat_now_ : nullptr; }
   [[nodiscard]] std::string reason_for_stock();
   void refuse_coincident() const;
+  void add_parted_heat();
   void show_lists_to_host();
   [[nodiscard]] Particles particles() const;
   [[nodiscard]] bool only_forces_wanted(int eflag, int vflag, int addflag);
