@@ -42,6 +42,29 @@ struct CaseText {
     tables.push_back({content, std::move(label), {}});
     return tables.size() - 1;
   }
+  /// Of a key that is missing, or whose table is: the one that may have been meant for it.
+  [[nodiscard]] std::string misspelt(std::size_t table, const std::string& key) const {
+    if (tables[table].content)
+      return unknown_near(table, key);
+    const std::string& label = tables[table].label;
+    return unknown_near(0, label.substr(1, label.size() - 2));
+  }
+  [[nodiscard]] std::string unknown_near(std::size_t table, const std::string& wanted) const {
+    const auto& known = tables[table].known;
+    std::size_t least = std::string::npos;
+    std::string text;
+    for (const auto& [key, node] : *tables[table].content) {
+      const std::string found(key.str());
+      const std::string hint = name_hint(found, {wanted});
+      const std::size_t distance = edit_distance(found, wanted);
+      if (distance >= least || std::ranges::find(known, found) != known.end() ||
+          !hint.starts_with("did you mean"))
+        continue;
+      least = distance;
+      text = fmt::format("; {} (line {}) is unknown: {}", found, key.source().begin.line, hint);
+    }
+    return text;
+  }
   [[nodiscard]] std::string where(std::size_t table, const std::string& key) const {
     const std::string& label = tables[table].label;
     return label.empty() ? fmt::format("{}: {}", name, key)
@@ -177,7 +200,8 @@ void CaseTable::fail(const std::string& key, const std::string& must_be) const {
   const std::string where = text_->where(table_, key);
   if (const toml::node* node = text_->find(table_, key))
     throw ConfigError(fmt::format("{} = {}: must be {}", where, written(*node), must_be));
-  throw ConfigError(fmt::format("{} is missing: must be {}", where, must_be));
+  throw ConfigError(
+      fmt::format("{} is missing: must be {}{}", where, must_be, text_->misspelt(table_, key)));
 }
 
 void CaseTable::refuse(const std::string& key, const std::string& why) const {

@@ -54,9 +54,8 @@ void read_stretched_box(const CaseTable& table, BoxGrid& grid) {
 
 BoxGrid read_box(const CaseTable& table) {
   BoxGrid grid;
-  const bool stretched = std::any_of(axis_names.begin(), axis_names.end(), [&](const char* axis) {
-    return table.has(std::string("nodes_") + axis);
-  });
+  const auto stretched = std::ranges::count_if( // asks for all three, so that all are known
+      axis_names, [&](const char* axis) { return table.has(std::string("nodes_") + axis); });
   if (stretched)
     read_stretched_box(table, grid);
   else

@@ -3,6 +3,7 @@
 #include "checkpointer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,8 @@ namespace {
 
 /// Ranks agree on signals that often: a small message of all, and a delay that nobody notices.
 constexpr long steps_between_looks = 10;
+/// Who asks for a stop does not wait long for lists to be built.
+constexpr double patience = 5; // s
 constexpr long never = std::numeric_limits<long>::max();
 
 bool is_first(MPI_Comm comm) {
@@ -43,22 +46,32 @@ void Checkpointer::plan(long now) {
   due_ = options_.every > 0 ? (now / options_.every + 1) * options_.every : never;
 }
 
-void Checkpointer::start(long now) {
+void Checkpointer::start(long now, long last) {
+  last_of_run_ = last;
   plan(now);
   look(now / steps_between_looks * steps_between_looks);
-  if (due_ <= now)
-    due_ = now + 1;
+}
+
+void Checkpointer::lists_are_built(long now) {
+  if (wish_ != StopSignals::Wish::none)
+    due_ = now;
 }
 
 void Checkpointer::look(long now) {
-  if (now % steps_between_looks != 0)
-    return;
-  int wish = int(StopSignals::wish());
-  MPI_Allreduce(MPI_IN_PLACE, &wish, 1, MPI_INT, MPI_MAX, comm_);
-  if (wish == int(StopSignals::Wish::none))
-    return;
-  stop_ = wish == int(StopSignals::Wish::stop);
-  due_ = now + 1;
+  bool late = false;
+  if (now % steps_between_looks == 0) {
+    const bool waiting = wish_ != StopSignals::Wish::none;
+    const double clock = MPI_Wtime();
+    std::array<int, 2> all{int(StopSignals::wish()), waiting && clock - asked_ > patience};
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), int(all.size()), MPI_INT, MPI_MAX, comm_);
+    wish_ = StopSignals::Wish(all[0]);
+    late = all[1];
+    if (!waiting)
+      asked_ = clock, forced_ = false;
+  }
+  // In the last step of a run there is nothing left to wait for.
+  if (wish_ != StopSignals::Wish::none && (late || now + 1 >= last_of_run_))
+    due_ = now + 1, forced_ = true;
 }
 
 bool Checkpointer::write(long now,
@@ -75,15 +88,18 @@ bool Checkpointer::write(long now,
   }
   coupling::throw_together<NumericalError>(comm_, complaint);
   last_ = {.file = options_.file, .step = now};
+  const bool stop = wish_ == StopSignals::Wish::stop;
   StopSignals::answered();
+  wish_ = StopSignals::Wish::none;
   plan(now);
-  return stop_;
+  return stop;
 }
 
 std::string Checkpointer::how_to_continue() const {
   return fmt::format("granflux: stopped by a signal after step {}; to continue: the same script "
-                     "with 'read_restart {}' in place of what makes box and particles\n",
-                     last_->step, last_->file);
+                     "with 'read_restart {}' in place of what makes box and particles{}\n",
+                     last_->step, last_->file,
+                     forced_ ? " (lists were built for it: the same to rounding)" : "");
 }
 
 void check_finite(std::span<const Vec3> values, const std::string& what, MPI_Comm comm) {

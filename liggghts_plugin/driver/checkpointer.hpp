@@ -22,17 +22,21 @@ struct GoodCheckpoint {
 };
 
 /// When checkpoints of a host's run are due, and how one gets on the disk: what `fix
-/// granflux/checkpoint` is in every host. A checkpoint step is known one step ahead, for the host
-/// builds its lists in it. Calls are collective.
+/// granflux/checkpoint` is in every host. The host builds its lists in a checkpoint step: for the
+/// script's interval it is told of the step before; one that a signal asks for waits until lists
+/// are built anyway, so that it leaves no trace in the run, unless that takes too long. Calls are
+/// collective.
 class Checkpointer {
 public:
   /// Throws ConfigError where the file cannot be written.
   Checkpointer(std::span<char*> words, MPI_Comm comm);
 
-  /// Before a run: `now` is the step it starts from.
-  void start(long now);
-  /// The next step that ends with a checkpoint.
+  /// Before a run: the steps it starts from and ends with.
+  void start(long now, long last);
+  /// The next step that must build lists and end with a checkpoint.
   [[nodiscard]] long due() const { return due_; }
+  /// In a step in which the host builds its lists.
+  void lists_are_built(long now);
   /// At the end of every step that is not due: looks, in some, whether a signal has come.
   void look(long now);
 
@@ -51,8 +55,10 @@ private:
   MPI_Comm comm_;
   CheckpointOptions options_;
   StopSignals signals_;
-  long due_ = -1;
-  bool stop_ = false;
+  long due_ = -1, last_of_run_ = -1;
+  StopSignals::Wish wish_ = StopSignals::Wish::none; ///< of all ranks
+  double asked_ = 0;                                 ///< when, on this rank's clock [s]
+  bool forced_ = false;                              ///< lists are built for a signal's checkpoint
   std::optional<GoodCheckpoint> last_;
 };
 

@@ -4,9 +4,11 @@
 #include "command_line.hpp"
 
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 
 #include <fmt/core.h>
+#include <mpi.h>
 #include <omp.h>
 
 #include <granflux/cfd/error.hpp>
@@ -60,6 +62,14 @@ int take_threads(int& argc, char** argv) {
   const int threads = word ? number_of_threads("-threads", *word) : threads_of_environment();
   omp_set_num_threads(threads);
   return threads;
+}
+
+void refuse_to_start(const std::string& reason) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0)
+    fmt::print(stderr, "ERROR: {}\n", reason);
+  MPI_Finalize();
 }
 
 } // namespace granflux::driver

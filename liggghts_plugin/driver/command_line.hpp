@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace granflux::driver {
@@ -15,5 +16,8 @@ std::optional<std::string_view> take_option(int& argc, char** argv, std::string_
 /// line, else OMP_NUM_THREADS, else 1 as in the hosts. Returns it. Throws ConfigError where it is
 /// not a number of threads.
 int take_threads(int& argc, char** argv);
+
+/// Instead of a start: the reason, told by rank 0, and the end of MPI.
+void refuse_to_start(const std::string& reason);
 
 } // namespace granflux::driver

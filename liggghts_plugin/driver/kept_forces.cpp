@@ -4,51 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <span>
-#include <stdexcept>
-#include <string>
 #include <vector>
-
-#include <granflux/cfd/error.hpp>
-#include <granflux/cfd/state_record.hpp>
 
 namespace granflux::driver {
 
 namespace {
 
-using cfd::RecordReader;
-using cfd::RecordWriter;
-
-constexpr char kind[] = "checkpoint";
 constexpr int columns = KeptForces::saved - 1; ///< whether there are any, force, torque
-using Numbers = std::array<double, sizeof(KeptForces::Step) / sizeof(double)>;
 
 } // namespace
 
-void KeptForces::write(const std::optional<Step>& step, std::FILE* file) {
-  const std::size_t count = step ? std::tuple_size_v<Numbers> : 0;
-  const int size = int(RecordWriter::bytes(count));
-  bool good = std::fwrite(&size, sizeof size, 1, file) == 1;
-  RecordWriter out(kind, count, [&](const void* bytes, std::size_t n) {
-    good = std::fwrite(bytes, 1, n, file) == n && good;
-  });
-  if (step)
-    out.write(std::bit_cast<Numbers>(*step));
-  out.finish();
-  if (!good)
-    throw std::runtime_error("the restart file could not be written: is the disk full?");
-}
-
-void KeptForces::read(const char* block, int n) {
-  const std::size_t heading = sizeof(cfd::RecordHeading);
-  const std::uint64_t size = RecordReader::bytes({block, heading});
-  RecordReader in(kind, {block, std::max<std::size_t>(size, heading)});
-  if (in.left() == 0)
-    return;
-  Numbers numbers{};
-  in.read(numbers);
-  step_ = std::bit_cast<Step>(numbers);
+void KeptForces::expect(int n) {
   rows_.emplace(std::vector<double>(columns));
   rows_->grow(n);
 }

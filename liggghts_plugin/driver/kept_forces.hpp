@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <cstdio>
 #include <optional>
 
 #include "particle_rows.hpp"
@@ -15,32 +14,21 @@ namespace granflux::driver {
 /// set-up only.
 class KeptForces {
 public:
-  /// What else the last step's forces depend on.
-  struct Step {
-    double time_step = 0; ///< s
-    double with_gas = 0;  ///< 1: the gas's forces are in them
-    friend bool operator==(const Step&, const Step&) = default;
-  };
-
-  /// Rank 0 writes the fix's block, its length first; without a step there are no forces.
-  static void write(const std::optional<Step>& step, std::FILE* file);
-  /// Takes such a block, with room for n particles. Throws ConfigError where it is damaged.
-  void read(const char* block, int n);
+  /// Room for n particles, before they are read.
+  void expect(int n);
 
   /// Numbers of a particle in a restart file, the first of which is this length.
   static constexpr int saved = 8;
   /// Force and torque may be null: there is nothing to keep.
   static int pack(const double* force, const double* torque, double* buffer);
 
-  /// Rows of the particles, as they come and go.
+  /// Rows of the particles, as they come and go; null where none are kept.
   [[nodiscard]] ParticleRows* rows() { return rows_ ? &*rows_ : nullptr; }
-  [[nodiscard]] bool are_of(const Step& step) const { return rows_ && step_ == step; }
   /// Puts them into the host's arrays of n particles; those that came later keep what they have.
   void restore(double** force, double** torque, int n);
   void drop() { rows_.reset(); }
 
 private:
-  Step step_;
   std::optional<ParticleRows> rows_;
 };
 

@@ -2,59 +2,39 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "fmt_of_lammps.hpp"
 
+#include <lammps/atom.h>
+#include <lammps/comm.h>
+#include <lammps/error.h>
 #include <lammps/fix.h>
+#include <lammps/lammps.h>
+#include <lammps/modify.h>
+#include <lammps/update.h>
 
-#include "driver/checkpointer.hpp"
-#include "driver/kept_forces.hpp"
+#include "driver/checkpoint_fix.hpp"
+#include "fix_couple.hpp"
 
 namespace granflux::lammps {
 
-/// fix ID all granflux/checkpoint FILE every N: restart files from which a run goes on to the last
-/// bit (docs/reference/fix_granflux_checkpoint.md).
-class FixCheckpoint : public LAMMPS_NS::Fix {
+class FixCheckpoint : public driver::CheckpointFix<LAMMPS_NS::Fix, FixCouple> {
 public:
   FixCheckpoint(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
-  ~FixCheckpoint() override;
-
-  /// The forces of the last step are known, so that the run that is set up needs no others.
-  [[nodiscard]] bool brings_forces() const { return kept_.are_of(this_step()); }
-  [[nodiscard]] const driver::Checkpointer& point() const { return *point_; }
 
   int setmask() override;
-  void init() override;
   void setup_pre_force(int) override;
-  void setup(int) override;
-  void pre_exchange() override;
-  void end_of_step() override;
-
-  void write_restart(FILE* file) override;
-  void restart(char* block) override;
-
-  void grow_arrays(int n) override;
-  void copy_arrays(int from, int to, int) override;
-  void set_arrays(int particle) override;
-  int pack_exchange(int particle, double* buffer) override;
-  int unpack_exchange(int particle, double* buffer) override;
-  int pack_restart(int particle, double* buffer) override;
-  void unpack_restart(int particle, int nth) override;
-  int size_restart(int particle) override;
-  int maxsize_restart() override;
 
 private:
-  [[nodiscard]] driver::KeptForces::Step this_step() const;
+  [[nodiscard]] int stages_of_forces() const override;
+  void write_host_file(const std::string& path) override;
+  void stop_host() override;
+  void restore_histories() override;
   void restore_pair_history();
-  void say(const std::string& text) const;
 
-  std::unique_ptr<driver::Checkpointer> point_;
-  driver::KeptForces kept_;
   std::vector<std::vector<double>> histories_; ///< of walls, by fix, until the set-up is over
-  bool writing_ = false;                       ///< what is packed goes to a checkpoint
 };
 
 } // namespace granflux::lammps

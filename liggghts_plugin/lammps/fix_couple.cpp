@@ -12,14 +12,18 @@
 #include "fmt_of_lammps.hpp"
 
 #include <lammps/atom.h>
+#include <lammps/domain.h>
+#include <lammps/error.h>
 #include <lammps/group.h>
 #include <lammps/modify.h>
 #include <lammps/timer.h>
 #include <lammps/update.h>
 
+#include "driver/fixes_of_run.hpp"
+#include "driver/guard.hpp"
 #include "driver/restart_values.hpp"
-#include "fix_heat.hpp"
-#include "guard.hpp"
+#include "driver/scene_of_script.hpp"
+#include "fix_checkpoint.hpp"
 #include "scene.hpp"
 
 namespace granflux::lammps {
@@ -40,8 +44,8 @@ FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   size_vector = driver::GasDriver::values;
   global_freq = 1;
   extvector = 0;
-  guard(*this, *error, [&] {
-    refuse_second_fix();
+  driver::guard(*this, *error, [&] {
+    driver::refuse_second_fix(*modify, style, ": there can be one gas only");
     gas_ = std::make_unique<driver::GasDriver>(std::span(arg + 3, std::size_t(narg - 3)), world);
     if (gas_->solves_gas())
       fluid_ = ParticleRows(std::vector<double>(coupling::fluid_state_doubles));
@@ -70,19 +74,13 @@ FixCouple::~FixCouple() {
   atom->delete_callback(id, LAMMPS_NS::Atom::RESTART);
 }
 
-void FixCouple::refuse_second_fix() const {
-  for (int i = 0; i < modify->nfix; ++i)
-    if (const Fix* other = modify->fix[i]; other && std::string_view(other->style) == style)
-      throw ConfigError(fmt::format("fix {} is one already: there can be one gas only", other->id));
-}
-
 int FixCouple::setmask() {
   return LAMMPS_NS::FixConst::POST_FORCE | LAMMPS_NS::FixConst::POST_RUN;
 }
 
 void FixCouple::init() {
-  guard(*this, *error, [&] {
-    check_script(script_of(*lmp));
+  driver::guard(*this, *error, [&] {
+    check_script(driver::script_of(*lmp, rigid_fix_of(*lmp)));
     gas_->choose_effects(*host_);
   });
   warn_of_later_forces();
@@ -105,7 +103,7 @@ void FixCouple::warn_of_later_forces() {
 }
 
 void FixCouple::setup(int) {
-  guard(*this, *error, [&] {
+  driver::guard(*this, *error, [&] {
     host_->find_held();
     find_heat();
     gas_->set_up(*host_, run_steps(), update->dt);
@@ -117,10 +115,7 @@ void FixCouple::setup(int) {
 void FixCouple::find_heat() {
   if (!gas_->with_heat())
     return;
-  FixHeat* heat = nullptr;
-  for (int i = 0; i < modify->nfix; ++i)
-    if (auto* found = dynamic_cast<FixHeat*>(modify->fix[i]))
-      heat = found;
+  auto* heat = driver::find_fix<FixHeat>(*modify);
   if (!heat)
     throw ConfigError("the case has an [energy] table, but particles have no temperature: define "
                       "fix granflux/heat");
@@ -135,7 +130,7 @@ driver::RunSteps FixCouple::run_steps() const {
 /// All forces of the step but those of later fixes are in the force array here, and velocities are
 /// those of the middle of the step.
 void FixCouple::post_force(int) {
-  guard(*this, *error, [&] {
+  driver::guard(*this, *error, [&] {
     if (!gas_->running()) // a run without set-up (`run N pre no`)
       gas_->begin_run(run_steps());
     gas_->step(*host_, long(update->ntimestep), update->dt);
@@ -166,16 +161,16 @@ int FixCouple::modify_param(int narg, char** arg) {
   if (narg < 2)
     return 0; // LAMMPS reports it
   bool known = false;
-  guard(*this, *error, [&] { known = gas_->modify(arg[0], arg[1]); });
+  driver::guard(*this, *error, [&] { known = gas_->modify(arg[0], arg[1]); });
   return known ? 2 : 0;
 }
 
 void FixCouple::write_restart(FILE* file) {
-  guard(*this, *error, [&] { gas_->write_state(file); });
+  driver::guard(*this, *error, [&] { gas_->write_state(file); });
 }
 
 void FixCouple::restart(char* block) {
-  guard(*this, *error, [&] { gas_->read_state(block); });
+  driver::guard(*this, *error, [&] { gas_->read_state(block); });
 }
 
 void FixCouple::grow_arrays(int n) {

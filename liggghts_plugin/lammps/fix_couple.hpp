@@ -52,7 +52,6 @@ public:
   void describe(coupling::SceneState& scene) const { gas_->describe(scene); }
 
 private:
-  void refuse_second_fix() const;
   void find_heat();
   void warn_of_later_forces();
   [[nodiscard]] driver::RunSteps run_steps() const;

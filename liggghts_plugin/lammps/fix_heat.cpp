@@ -14,8 +14,11 @@
 
 #include <lammps/atom.h>
 #include <lammps/comm.h>
+#include <lammps/domain.h>
+#include <lammps/error.h>
 #include <lammps/force.h>
 #include <lammps/group.h>
+#include <lammps/lammps.h>
 #include <lammps/modify.h>
 #include <lammps/neigh_list.h>
 #include <lammps/pair.h>
@@ -23,9 +26,12 @@
 
 #include <granflux/cfd/vec3.hpp>
 
+#include "driver/fixes_of_run.hpp"
+#include "driver/guard.hpp"
 #include "driver/restart_values.hpp"
+#include "driver/say.hpp"
+#include "driver/scene_of_script.hpp"
 #include "fix_couple.hpp"
-#include "guard.hpp"
 #include "particle_subset/temperature_step.hpp"
 #include "scene.hpp"
 
@@ -76,10 +82,8 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   comm_forward = 1;
   comm_reverse = 2;
   maxexchange = 2;
-  guard(*this, *error, [&] {
-    for (int i = 0; i < modify->nfix; ++i)
-      if (const Fix* other = modify->fix[i]; other && std::string_view(other->style) == style)
-        throw ConfigError(fmt::format("fix {} is one already", other->id));
+  driver::guard(*this, *error, [&] {
+    driver::refuse_second_fix(*modify, style, "");
     if (igroup != 0)
       throw ConfigError(fmt::format("group {}: must be all; fixed_temperature names groups whose "
                                     "temperatures stay",
@@ -124,16 +128,15 @@ void FixHeat::choose_effects() {
   const driver::EffectSet on = words_.options.available();
   watch_ = driver::EffectWatch(driver::effects_of_heat, available_, on);
   watch_.begin(found);
-  say(driver::effects_table(found, driver::effects_of_heat, available_, on));
+  driver::say(*lmp, driver::effects_table(found, driver::effects_of_heat, available_, on));
 }
 
 coupling::SceneState FixHeat::scene() {
   coupling::SceneState scene;
-  describe_particles(*lmp, scene);
+  driver::describe_particles(*lmp, gravity_of(*lmp), scene);
   describe(scene);
-  for (int i = 0; i < modify->nfix; ++i)
-    if (const auto* couple = dynamic_cast<const FixCouple*>(modify->fix[i]))
-      couple->describe(scene);
+  if (const auto* couple = driver::find_fix<FixCouple>(*modify))
+    couple->describe(scene);
   return scene;
 }
 
@@ -153,7 +156,7 @@ void FixHeat::warn_of_neglected() {
   if (!words_.options.effects.given())
     return;
   if (const std::string text = watch_.warnings(scene()); !text.empty())
-    say(text);
+    driver::say(*lmp, text);
 }
 
 int FixHeat::setmask() {
@@ -194,7 +197,7 @@ int FixHeat::held_bits() const {
 }
 
 void FixHeat::init() {
-  guard(*this, *error, [&] {
+  driver::guard(*this, *error, [&] {
     choose_effects();
     check_pair_style();
   });
@@ -211,20 +214,14 @@ void FixHeat::setup(int) {
     return;
   heat_at_start_ = heat_of_all_ranks();
   const auto& contacts = words_.options.contacts;
-  say(fmt::format("granflux: heat of contacts beside LAMMPS' own forces; conduction {}, friction "
+  driver::say(
+      *lmp,
+      fmt::format("granflux: heat of contacts beside LAMMPS' own forces; conduction {}, friction "
                   "{}; walls are adiabatic\n",
                   contacts.radius ? std::visit([](const auto& r) { return std::string(r.name); },
                                                *contacts.radius)
                                   : "off",
                   contacts.friction == FrictionHeat::off ? "off" : "speed"));
-}
-
-void FixHeat::say(const std::string& text) const {
-  if (comm->me != 0)
-    return;
-  for (FILE* out : {screen, logfile})
-    if (out)
-      std::fputs(text.c_str(), out);
 }
 
 /// Along LAMMPS' own list, after the forces and with the velocities that they came from.
@@ -385,7 +382,7 @@ void FixHeat::look_at_temperatures() {
                       },
                   .materials = words_.materials};
   report_.look(particles(), conduction, powers_, books_, heat_at_start_, world);
-  say(report_.warnings(false));
+  driver::say(*lmp, report_.warnings(false));
 }
 
 void FixHeat::post_run() {
@@ -394,7 +391,7 @@ void FixHeat::post_run() {
   looked_at_ = -1;
   look_at_temperatures();
   if (words_.options.contacts.radius)
-    say(report_.biot_numbers());
+    driver::say(*lmp, report_.biot_numbers());
   warn_of_neglected();
 }
 
@@ -411,7 +408,7 @@ double FixHeat::compute_vector(int n) {
 int FixHeat::modify_param(int narg, char** arg) {
   if (narg < 3 || std::string_view(arg[0]) != "temperature")
     return 0; // LAMMPS reports it
-  guard(*this, *error, [&] { set_temperatures(arg[1], arg[2]); });
+  driver::guard(*this, *error, [&] { set_temperatures(arg[1], arg[2]); });
   return 3;
 }
 
@@ -434,11 +431,12 @@ void FixHeat::set_temperatures(const char* of_group, const char* kelvin) {
 }
 
 void FixHeat::write_restart(FILE* file) {
-  guard(*this, *error, [&] { write_heat_books(books_, heat_at_start_, file, world); });
+  driver::guard(*this, *error, [&] { write_heat_books(books_, heat_at_start_, file, world); });
 }
 
 void FixHeat::restart(char* block) {
-  guard(*this, *error, [&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
+  driver::guard(*this, *error,
+                [&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
 }
 
 void FixHeat::grow_arrays(int n) {

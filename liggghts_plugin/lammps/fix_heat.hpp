@@ -96,7 +96,6 @@ private:
   [[nodiscard]] double heat_of_all_ranks() const;
   void look_at_temperatures();
   void set_temperatures(const char* of_group, const char* kelvin);
-  void say(const std::string& text) const;
 
   HeatWords words_;
   driver::EffectSet available_; // of the words

@@ -2,61 +2,50 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
+#include <span>
 
 #include "fmt_of_lammps.hpp"
 
+#include <lammps/atom.h>
+#include <lammps/comm.h>
+#include <lammps/domain.h>
+#include <lammps/fix.h>
+#include <lammps/lammps.h>
+#include <lammps/modify.h>
 #include <lammps/pointers.h>
+#include <lammps/update.h>
 
-#include "driver/host.hpp"
-#include "driver/particle_groups.hpp"
 #include "driver/particle_rows.hpp"
+#include "driver/script_host.hpp"
+#include "fix_heat.hpp"
 
 namespace granflux::lammps {
 
 using driver::ParticleRows;
 
 class FixCheckpoint;
-class FixHeat;
 
-/// LAMMPS as the gas sees it. Positions, velocities and forces are LAMMPS' own arrays; the fluid
-/// states are rows of the fix that has this view.
-class HostView : public driver::Host, private LAMMPS_NS::Pointers {
+/// LAMMPS as the gas sees it. The fluid states are rows of the fix that has this view.
+class HostView : public driver::ScriptHost<LAMMPS_NS::Pointers, FixCheckpoint, FixHeat> {
 public:
-  /// group_bit: the particles that are coupled. held_bit: further particles held in place, or 0.
   HostView(LAMMPS_NS::LAMMPS* lammps, ParticleRows& fluid, int group_bit, int held_bit);
-
-  /// The fixes may have changed between runs: call before each.
-  void find_held();
 
   /// Where particles have temperatures, and what they exchange with the gas.
   void set_heat(FixHeat& heat, ParticleRows& states) {
-    heat_ = &heat;
+    ScriptHost::set_heat(heat);
     heat_states_ = &states;
   }
 
-  driver::Scene scene() override;
   driver::ContactTimes contact_times() override;
-  coupling::ParticleView particles(bool with_id) override;
-  void clear_frozen_forces() override;
-  double step_temperatures() override;
-  bool forces_come_back() override;
-  std::optional<driver::GoodCheckpoint> last_checkpoint() override;
-  void describe(coupling::SceneState& scene) override;
-  void say(const std::string& text) override;
 
 private:
-  [[nodiscard]] const FixCheckpoint* checkpoint() const;
-  [[nodiscard]] std::span<coupling::HeatState> heat_states();
+  std::optional<Vec3> gravity() override;
+  std::span<coupling::FluidState> fluid_states() override;
+  std::span<coupling::HeatState> heat_states() override;
 
   ParticleRows& fluid_;
-  FixHeat* heat_ = nullptr;
   ParticleRows* heat_states_ = nullptr;
-  driver::ParticleGroups groups_;
-  std::vector<std::int64_t> id_;
 };
 
 } // namespace granflux::lammps

@@ -23,6 +23,7 @@
 
 #include "driver/command_line.hpp"
 #include "driver/peak_memory.hpp"
+#include "driver/say.hpp"
 #include "driver/thread_placement.hpp"
 
 namespace {
@@ -38,27 +39,6 @@ void pass_on_threads(int threads) {
   setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
-void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
-  const std::string advice = granflux::driver::thread_placement_advice(lammps.world);
-  if (lammps.comm->me == 0 && lammps.screen)
-    fmt::print(lammps.screen, "{}", advice);
-}
-
-void report_memory(LAMMPS_NS::LAMMPS& lammps) {
-  const std::string line = granflux::driver::peak_memory(lammps.world);
-  for (FILE* const file : {lammps.screen, lammps.logfile})
-    if (lammps.comm->me == 0 && file)
-      fmt::print(file, "\n{}", line);
-}
-
-void stop(std::string_view reason) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0)
-    fmt::print(stderr, "ERROR: {}\n", reason);
-  MPI_Finalize();
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
@@ -72,14 +52,15 @@ int main(int argc, char** argv) {
   try {
     pass_on_threads(granflux::driver::take_threads(argc, argv));
   } catch (const granflux::ConfigError& error) {
-    stop(error.what());
+    granflux::driver::refuse_to_start(error.what());
     return 1;
   }
   {
+    using granflux::driver::say;
     LAMMPS_NS::LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
-    advise_on_threads(lammps);
+    say(lammps, granflux::driver::thread_placement_advice(lammps.world));
     lammps.input->file();
-    report_memory(lammps);
+    say(lammps, fmt::format("\n{}", granflux::driver::peak_memory(lammps.world)));
   }
   MPI_Finalize();
 }

@@ -13,6 +13,7 @@
 #include <liggghts/lammps.h>
 
 #include <liggghts/atom.h>
+#include <liggghts/domain.h>
 #include <liggghts/error.h>
 #include <liggghts/fix_property_atom.h>
 #include <liggghts/group.h>
@@ -21,8 +22,10 @@
 #include <liggghts/timer.h>
 #include <liggghts/update.h>
 
-#include <granflux/cfd/error.hpp>
-
+#include "driver/fixes_of_run.hpp"
+#include "driver/guard.hpp"
+#include "driver/scene_of_script.hpp"
+#include "fix_checkpoint.hpp"
 #include "particle_subset/work_times.hpp"
 #include "scene.hpp"
 
@@ -36,40 +39,19 @@ constexpr char gas_temperature_property[] = "gasTemperature";
 
 } // namespace
 
-template <class Work> void FixCouple::guard(Work&& work) {
-  const auto text = [this](const std::exception& e) {
-    return fmt::format("fix {} granflux/couple: {}", id, e.what());
-  };
-  try {
-    work();
-  } catch (const ConfigError& e) {
-    error->all(FLERR, text(e).c_str()); // thrown on all ranks alike
-  } catch (const NumericalError& e) {
-    error->all(FLERR, text(e).c_str()); // likewise
-  } catch (const std::exception& e) {
-    error->one(FLERR, text(e).c_str());
-  }
-}
-
 FixCouple::FixCouple(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
   restart_global = 1;
   vector_flag = 1;
   size_vector = driver::GasDriver::values;
   global_freq = 1;
   extvector = 0;
-  guard([&] {
-    refuse_second_fix();
+  driver::guard(*this, *error, [&] {
+    driver::refuse_second_fix(*modify, style, ": there can be one gas only");
     gas_ = std::make_unique<driver::GasDriver>(std::span(arg + 3, std::size_t(narg - 3)), world);
     const std::string& held = gas_->options().fixed_group;
     if (!held.empty() && group->find(held.c_str()) < 0)
       throw ConfigError(fmt::format("fixed_group {}: no such group", held));
   });
-}
-
-void FixCouple::refuse_second_fix() const {
-  for (int i = 0; i < modify->nfix; ++i)
-    if (const Fix* other = modify->fix[i]; other && std::string_view(other->style) == style)
-      throw ConfigError(fmt::format("fix {} is one already: there can be one gas only", other->id));
 }
 
 int FixCouple::setmask() {
@@ -131,8 +113,8 @@ void FixCouple::pre_delete(bool unfix) {
 }
 
 void FixCouple::init() {
-  guard([&] {
-    check_script(script_of(*lmp));
+  driver::guard(*this, *error, [&] {
+    check_script(driver::script_of(*lmp, rigid_fix_of(*lmp)));
     gas_->choose_effects(*host_);
     if (gas_->solves_gas() && !fluid_)
       make_properties();
@@ -140,7 +122,7 @@ void FixCouple::init() {
 }
 
 void FixCouple::setup(int) {
-  guard([&] {
+  driver::guard(*this, *error, [&] {
     host_->find_held();
     find_heat();
     if (gas_->solves_gas())
@@ -155,15 +137,12 @@ void FixCouple::setup(int) {
 void FixCouple::find_heat() {
   if (!gas_->with_heat())
     return;
-  FixHeat* heat = nullptr;
-  for (int i = 0; i < modify->nfix; ++i)
-    if (auto* found = dynamic_cast<FixHeat*>(modify->fix[i]))
-      heat = found;
+  auto* heat = driver::find_fix<FixHeat>(*modify);
   if (!heat)
     throw ConfigError("the case has an [energy] table, but particles have no temperature: define "
                       "fix granflux/heat");
   heat->leave_steps_to_gas();
-  host_->set_heat(heat, heat_states_);
+  host_->set_heat(*heat, *heat_states_);
 }
 
 /// The table of post_run needs the seconds of each fix, from zero on.
@@ -182,7 +161,7 @@ driver::RunSteps FixCouple::run_steps() const {
 /// middle of the step.
 void FixCouple::pre_final_integrate() {
   const particle_subset::Lap lap(particle_subset::work_times().gas);
-  guard([&] {
+  driver::guard(*this, *error, [&] {
     if (!gas_->running()) { // a run without set-up (`run N pre no`)
       if (gas_->solves_gas())
         time_all_fixes();
@@ -239,16 +218,16 @@ int FixCouple::modify_param(int narg, char** arg) {
   if (narg < 2)
     return 0; // LIGGGHTS reports it
   bool known = false;
-  guard([&] { known = gas_->modify(arg[0], arg[1]); });
+  driver::guard(*this, *error, [&] { known = gas_->modify(arg[0], arg[1]); });
   return known ? 2 : 0;
 }
 
 void FixCouple::write_restart(FILE* file) {
-  guard([&] { gas_->write_state(file); });
+  driver::guard(*this, *error, [&] { gas_->write_state(file); });
 }
 
 void FixCouple::restart(char* block) {
-  guard([&] { gas_->read_state(block); });
+  driver::guard(*this, *error, [&] { gas_->read_state(block); });
 }
 
 } // namespace granflux::liggghts

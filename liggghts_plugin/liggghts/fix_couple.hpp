@@ -40,9 +40,6 @@ public:
   void describe(coupling::SceneState& scene) const { gas_->describe(scene); }
 
 private:
-  /// Runs what may throw, and stops LIGGGHTS with the text where it does.
-  template <class Work> void guard(Work&& work);
-  void refuse_second_fix() const;
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool& own);
   void make_properties();
   void find_heat();

@@ -17,6 +17,7 @@
 
 #include <liggghts/atom.h>
 #include <liggghts/comm.h>
+#include <liggghts/domain.h>
 #include <liggghts/error.h>
 #include <liggghts/fix_property_atom.h>
 #include <liggghts/force.h>
@@ -27,9 +28,12 @@
 #include <liggghts/pair_gran.h>
 #include <liggghts/update.h>
 
-#include <granflux/cfd/error.hpp>
 #include <granflux/coupling/contact_heat/conductance.hpp>
 
+#include "driver/fixes_of_run.hpp"
+#include "driver/guard.hpp"
+#include "driver/say.hpp"
+#include "driver/scene_of_script.hpp"
 #include "fix_couple.hpp"
 #include "particle_subset/fix_wall_gran.hpp"
 #include "particle_subset/pair_gran.hpp"
@@ -60,19 +64,6 @@ constexpr int doubles(std::size_t bytes) {
 
 } // namespace
 
-template <class Work> void FixHeat::guard(Work&& work) {
-  const auto text = [this](const std::exception& e) {
-    return fmt::format("fix {} granflux/heat: {}", id, e.what());
-  };
-  try {
-    work();
-  } catch (const ConfigError& e) {
-    error->all(FLERR, text(e).c_str()); // thrown on all ranks alike
-  } catch (const std::exception& e) {
-    error->one(FLERR, text(e).c_str());
-  }
-}
-
 FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
   restart_global = 1;
   scalar_flag = vector_flag = 1;
@@ -80,10 +71,8 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, 
   global_freq = 1;
   extscalar = 1;
   extvector = 0;
-  guard([&] {
-    for (int i = 0; i < modify->nfix; ++i)
-      if (const Fix* other = modify->fix[i]; other && std::string_view(other->style) == style)
-        throw ConfigError(fmt::format("fix {} is one already", other->id));
+  driver::guard(*this, *error, [&] {
+    driver::refuse_second_fix(*modify, style, "");
     if (igroup != 0)
       throw ConfigError(fmt::format("group {}: must be all; fixed_temperature names groups whose "
                                     "temperatures stay",
@@ -153,14 +142,6 @@ void FixHeat::pre_delete(bool unfix) {
       modify->delete_fix(name.c_str(), true);
 }
 
-void FixHeat::say(const std::string& text) const {
-  if (comm->me != 0)
-    return;
-  for (FILE* out : {screen, logfile})
-    if (out)
-      std::fputs(text.c_str(), out);
-}
-
 void FixHeat::check_script() const {
   if (!atom->radius_flag || !atom->rmass_flag)
     throw ConfigError(fmt::format("atom_style {}: particles must have a radius and a mass "
@@ -183,7 +164,7 @@ int FixHeat::held_bits() const {
 }
 
 void FixHeat::init() {
-  guard([&] {
+  driver::guard(*this, *error, [&] {
     check_script();
     choose_effects();
     materials_ = read_heat_materials(*lmp, options_);
@@ -229,13 +210,13 @@ void FixHeat::setup_pre_exchange() {
 
 void FixHeat::setup(int) {
   near_seconds_ = step_seconds_ = particle_steps_ = 0;
-  guard([&] {
+  driver::guard(*this, *error, [&] {
     if (touches())
       link_walls();
     if (!heat_at_start_)
       heat_at_start_ = heat_of_all_ranks();
     if (!said_)
-      say(effects());
+      driver::say(*lmp, effects());
     said_ = true;
   });
 }
@@ -270,16 +251,16 @@ void FixHeat::choose_effects() {
   chosen_ = true;
   watch_ = driver::EffectWatch(driver::effects_of_heat, available_, options_.available());
   watch_.begin(found);
-  say(driver::effects_table(found, driver::effects_of_heat, available_, options_.available()));
+  driver::say(*lmp, driver::effects_table(found, driver::effects_of_heat, available_,
+                                          options_.available()));
 }
 
 coupling::SceneState FixHeat::scene() {
   coupling::SceneState scene;
-  describe_particles(*lmp, scene);
+  driver::describe_particles(*lmp, gravity_of(*lmp), scene);
   describe(scene);
-  for (int i = 0; i < modify->nfix; ++i)
-    if (const auto* couple = dynamic_cast<const FixCouple*>(modify->fix[i]))
-      couple->describe(scene);
+  if (const auto* couple = driver::find_fix<FixCouple>(*modify))
+    couple->describe(scene);
   return scene;
 }
 
@@ -307,7 +288,7 @@ void FixHeat::warn_of_neglected() {
   if (!options_.effects.given())
     return;
   if (const std::string text = watch_.warnings(scene()); !text.empty())
-    say(text);
+    driver::say(*lmp, text);
 }
 
 void FixHeat::link_walls() {
@@ -416,7 +397,7 @@ void FixHeat::pre_final_integrate() {
   if (!steps_by_gas_ && !rests())
     step(nullptr);
   if (options_.effects.given() && update->ntimestep % steps_between_looks == 0)
-    guard([&] { warn_of_neglected(); });
+    driver::guard(*this, *error, [&] { warn_of_neglected(); });
 }
 
 double FixHeat::step_with_gas(coupling::HeatState* states) {
@@ -545,7 +526,7 @@ void FixHeat::look_at_temperatures() {
                                      int i) { return details[i].conductance; },
                   .materials = materials_.materials};
   report_.look(particles(), conduction, powers_, books_, heat_at_start_, world);
-  say(report_.warnings(options_.near.surroundings.has_value()));
+  driver::say(*lmp, report_.warnings(options_.near.surroundings.has_value()));
 }
 
 void FixHeat::post_run() {
@@ -554,11 +535,11 @@ void FixHeat::post_run() {
   looked_at_ = -1;
   look_at_temperatures();
   if (options_.contacts.radius)
-    say(report_.biot_numbers());
-  guard([&] { warn_of_neglected(); });
+    driver::say(*lmp, report_.biot_numbers());
+  driver::guard(*this, *error, [&] { warn_of_neglected(); });
   if (options_.effects.given())
-    say(driver::heat_cost(options_.available(), {near_seconds_, step_seconds_, particle_steps_},
-                          world));
+    driver::say(*lmp, driver::heat_cost(options_.available(),
+                                        {near_seconds_, step_seconds_, particle_steps_}, world));
 }
 
 double FixHeat::compute_scalar() {
@@ -576,11 +557,12 @@ double FixHeat::compute_vector(int n) {
 }
 
 void FixHeat::write_restart(FILE* file) {
-  guard([&] { write_heat_books(books_, heat_at_start_, file, world); });
+  driver::guard(*this, *error, [&] { write_heat_books(books_, heat_at_start_, file, world); });
 }
 
 void FixHeat::restart(char* block) {
-  guard([&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
+  driver::guard(*this, *error,
+                [&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
 }
 
 } // namespace granflux::liggghts

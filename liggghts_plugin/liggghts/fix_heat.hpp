@@ -69,7 +69,6 @@ public:
   void describe(coupling::SceneState& scene);
 
 private:
-  template <class Work> void guard(Work&& work);
   LAMMPS_NS::FixPropertyAtom* property(const char* name, int values, bool restarts, bool ghosts,
                                        double initial);
   void check_script() const;
@@ -99,7 +98,6 @@ private:
   [[nodiscard]] double heat_of_all_ranks() const;
   [[nodiscard]] std::string effects() const;
   [[nodiscard]] int held_bits() const;
-  void say(const std::string& text) const;
 
   driver::HeatOptions options_;
   driver::EffectSet available_; // of the words

@@ -23,7 +23,9 @@
 #include <granflux/cfd/out_of_memory.hpp>
 #include <granflux/version.hpp>
 
+#include "driver/command_line.hpp"
 #include "driver/peak_memory.hpp"
+#include "driver/say.hpp"
 #include "driver/thread_placement.hpp"
 #include "launch_options.hpp"
 #include "register_styles.hpp"
@@ -56,27 +58,6 @@ void install_signal_handlers() {
   std::signal(SIGUSR1, LAMMPS_NS::SignalHandler::usr1_handler);
 }
 
-void advise_on_threads(LAMMPS_NS::LAMMPS& lammps) {
-  const std::string advice = granflux::driver::thread_placement_advice(lammps.world);
-  if (lammps.comm->me == 0 && lammps.screen)
-    fmt::print(lammps.screen, "{}", advice);
-}
-
-void report_memory(LAMMPS_NS::LAMMPS& lammps) {
-  const std::string line = granflux::driver::peak_memory(lammps.world);
-  for (FILE* const file : {lammps.screen, lammps.logfile})
-    if (lammps.comm->me == 0 && file)
-      fmt::print(file, "\n{}", line);
-}
-
-void stop(std::string_view reason) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0)
-    fmt::print(stderr, "ERROR: {}\n", reason);
-  MPI_Finalize();
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
@@ -92,16 +73,17 @@ int main(int argc, char** argv) {
   try {
     granflux::liggghts::take_launch_options(argc, argv);
   } catch (const granflux::ConfigError& error) {
-    stop(error.what());
+    granflux::driver::refuse_to_start(error.what());
     return 1;
   }
   {
+    using granflux::driver::say;
     LAMMPS_NS::LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     check_host(lammps);
-    advise_on_threads(lammps);
+    say(lammps, granflux::driver::thread_placement_advice(lammps.world));
     granflux::liggghts::register_styles(lammps);
     lammps.input->file();
-    report_memory(lammps);
+    say(lammps, fmt::format("\n{}", granflux::driver::peak_memory(lammps.world)));
   }
   MPI_Finalize();
 }

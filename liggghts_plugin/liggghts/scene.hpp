@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <granflux/coupling/effects/scene_state.hpp>
+#include <optional>
+#include <string>
 
-#include "driver/scene.hpp"
+#include <granflux/cfd/vec3.hpp>
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -12,12 +13,10 @@ class LAMMPS;
 
 namespace granflux::liggghts {
 
-driver::Script script_of(LAMMPS_NS::LAMMPS& lammps);
+/// Sum of the script's constant gravities, if it has any [m/s2].
+std::optional<Vec3> gravity_of(LAMMPS_NS::LAMMPS& lammps);
 
-/// Collective.
-driver::Scene scene_of(LAMMPS_NS::LAMMPS& lammps);
-
-/// The particles of the script, its gravity and its box. Collective.
-void describe_particles(LAMMPS_NS::LAMMPS& lammps, coupling::SceneState& scene);
+/// "fix ID (style STYLE)" of one that holds spheres together, or empty.
+std::string rigid_fix_of(LAMMPS_NS::LAMMPS& lammps);
 
 } // namespace granflux::liggghts

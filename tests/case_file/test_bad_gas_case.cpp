@@ -71,7 +71,14 @@ const std::vector<Mistake> mistakes{
      "bed.toml: [[boundary]] 1 \"bottom\" temperature is missing: must be a number > 0 (K)"},
     {"density = 1.2\n", "", "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3)"},
     {"density = 1.2", "densty = 1.2",
-     "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3)"},
+     "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3); densty (line 10) is "
+     "unknown: did you mean density?"},
+    {"[fluid]", "[fluids]",
+     "bed.toml: [fluid] density is missing: must be a number > 0 (kg/m3); fluids (line 9) is "
+     "unknown: did you mean fluid?"},
+    {"origin = [0.0, 0.0, 0.0]\nsize = [0.044, 0.010, 0.120]\ncells = [8, 2, 12]",
+     "nodes_x = [0, 0.2]\nnodes_z = [0, 0.2]",
+     "bed.toml: [grid] nodes_y is missing: must be an array of 2 or more numbers (m)"},
     {"density = 1.2", "density = 1.2\ndensiti = 1",
      "bed.toml: [fluid] densiti (line 11): unknown key; did you mean density?"},
     {"viscosity = 1.8e-5", "viscosity = 0",

@@ -81,6 +81,46 @@ class Checkpoint(HostTest):
                 self.assertEqual(self.last("whole"), self.last("again"))
                 self.assertEqual(whole[-1], thermo_rows(output)[-1])
 
+    def test_a_signal_leaves_no_trace(self):
+        # It waits for the next lists that the run builds anyway. The shell of the script signals the program.
+        for ranks, gas in ((1, True), (2, False)):
+            with self.subTest(ranks=ranks, gas=gas):
+                script = "run 130\n{}run 370\n"
+                self.run_script(self.begin(0, gas=gas) + script.format(""), ranks)
+                output = self.run_script(self.begin(0, "first", gas) + script.format('shell "kill -TERM $PPID"\n'), ranks)
+                step = int(re.search(r"stopped by a signal after step (\d+); (.*)", output)[1])
+                self.assertTrue(130 < step < 499, step)
+                self.assertNotIn("the same to rounding", output)
+                output = self.run_script(self.go_on(0, gas=gas) + "run 500 upto\n", ranks)
+                self.assertEqual(thermo_rows(output)[0][0], step)
+                self.assertEqual(self.last("whole"), self.last("again"))
+
+    def test_a_signal_does_not_wait_for_lists_of_particles_at_rest(self):
+        still = self.begin(0).replace("fix             move all nve/sphere\n", "")
+        output = self.run_script(still + 'run 130\nshell "kill -TERM $PPID"\nrun 40\n')  # the end of the run
+        self.assertIn("stopped by a signal after step 170; ", output)
+        self.assertIn("lists were built for it: the same to rounding", output)
+
+    def test_other_fixes_are_refused(self):
+        self.run_script(self.begin(50, "first") + "run 60\n")
+        script = self.go_on()
+        for old, new, text in (
+            ("fix gas all", "fix air all", "of fix gas (style granflux/couple), which the script does not have; is it fix air?"),
+            (HEAT[HEAT.index("fix             heat") :], "", "of fix heat (style granflux/heat), which the script does not have: it would"),
+            ("fix             zlow all wall/gran", "fix floor all wall/gran", "the state of fix history_zlow"),
+        ):
+            with self.subTest(text=text):
+                thermo = THERMO.replace("f_gas", "f_air") if "air" in new else THERMO if new else THERMO.replace("f_heat ", "")
+                changed = script.replace(THERMO, thermo).replace(old, new)
+                self.assertNotEqual(changed, script)
+                code, output = self.start((changed if new else changed.replace(" f_Temp", " id")) + "run 1\n")
+                self.assertNotEqual(code, 0)
+                self.assertIn(text, output)
+
+    def test_a_checkpoint_of_another_fix_is_a_plain_restart_file(self):
+        self.run_script(self.begin(50, "first") + "run 60\n")
+        other = self.go_on().replace("fix keep all", "fix kept all").replace("fix gas all", "fix air all").replace("f_gas", "f_air")
+        self.assertEqual(thermo_rows(self.run_script(other + "run 1\n"))[0][0], 50)
 
     def test_on_another_number_of_ranks_and_threads(self):
         end = "run 160 upto\n"

@@ -40,6 +40,22 @@ class Checkpoint(TwoHostTest):
                 self.assertEqual(self.last("whole"), self.last("again"))
                 self.assertEqual(thermo_rows(whole)[-1], thermo_rows(again)[-1])
 
+    def test_a_signal_leaves_no_trace(self):
+        two_runs = "run 130\n{}run 270\n"
+        self.run_lammps(script("whole", 0, BED) + two_runs.format(""))
+        output = self.run_lammps(script("first", 0, BED) + two_runs.format('shell "kill -TERM $PPID"\n'))
+        step = int(re.search(r"stopped by a signal after step (\d+); (.*)", output)[1])
+        self.assertTrue(130 < step < 399, step)
+        self.assertNotIn("the same to rounding", output)
+        self.run_lammps(script("again", 0, AGAIN) + "run 400 upto\n")
+        self.assertEqual(self.last("whole"), self.last("again"))
+
+    def test_other_fixes_are_refused(self):
+        self.run_lammps(script("first", 50, BED) + "run 60\n")
+        code, output = self.start_lammps(script("again", 50, AGAIN).replace("fix gas all", "fix air all").replace("f_gas", "f_air") + "run 1\n")
+        self.assertNotEqual(code, 0)
+        self.assertIn("of fix gas (style granflux/couple), which the script does not have; is it fix air?", output)
+
     def test_on_another_number_of_ranks(self):
         self.run_lammps(script("first", 60, BED) + "run 70\n", 2)
         self.run_lammps(script("same", 1000, AGAIN) + "run 200 upto\n", 2)
