@@ -92,6 +92,11 @@ std::string text(const Vec3& x) {
 /// Where there is no drag.
 struct NoDrag {};
 
+/// How particles respond to drag within a step: exactly; the same but for those held in place; or
+/// with their velocity before the step.
+enum class Response { exact, exact_unless_fixed, at_once };
+template <Response r> using ResponseIs = std::integral_constant<Response, r>;
+
 std::string text(double x) {
   std::ostringstream out;
   out.precision(10);
@@ -106,8 +111,10 @@ struct Coupler::Impl {
       : gas_case(c), options(o), mesh(cfd::make_mesh(c, comm)), halo(mesh), gas(mesh, c),
         locator(make_locator(mesh)),
         kernel(VoidFractionKernels::make("void_fraction", o.void_fraction)),
-        drag(DragLaws::make("drag", o.drag)), nusselt(NusseltLaws::make("nusselt", o.nusselt)),
-        exchange(mesh), ledger(comm), void_fraction(cfd::make_fields(mesh, 1)) {
+        diameter_over_radius(2 / o.coarse_graining),
+        particles_a_parcel(std::pow(o.coarse_graining, 3)), drag(DragLaws::make("drag", o.drag)),
+        nusselt(NusseltLaws::make("nusselt", o.nusselt)), exchange(mesh), ledger(comm),
+        void_fraction(cfd::make_fields(mesh, 1)) {
     if (!(o.void_fraction_floor > 0 && o.void_fraction_floor < 1))
       throw ConfigError("coupling: void_fraction_floor = " + text(o.void_fraction_floor) +
                         " must lie between 0 and 1");
@@ -123,6 +130,9 @@ struct Coupler::Impl {
     if (!(o.smoothing_width >= 0 && std::isfinite(o.smoothing_width)))
       throw ConfigError("coupling: smoothing_width = " + text(o.smoothing_width) +
                         " must be a number of particle diameters, 0 or more");
+    if (!(o.coarse_graining >= 1 && std::isfinite(o.coarse_graining)))
+      throw ConfigError("coupling: coarse_graining = " + text(o.coarse_graining) +
+                        " must be 1 or more: diameter of a parcel over that of its particles");
     if (c.energy && c.energy->conductivity == 0 && o.heat_transfer_coefficient == 0)
       throw ConfigError("[energy] conductivity: must be above 0, for Nusselt numbers count in it; "
                         "[coupling] heat_transfer_coefficient does without");
@@ -153,7 +163,8 @@ struct Coupler::Impl {
                  const Vec3& gas_velocity, ExchangeSums& mine) const;
   template <class Law>
   ExchangeSums charge(const Law& law, const ParticleView& view, double interval);
-  void set_momentum_exchange();
+  void set_momentum_exchange(double interval, ExchangeSums& sums);
+  void take_drag_at_start(double interval, ExchangeSums& sums);
   void sample_new_gas();
   void show_new_gas(std::size_t p, double radius, FluidState& state) const;
   ExchangeSums book(const ParticleView& view, double interval);
@@ -181,7 +192,13 @@ struct Coupler::Impl {
   template <class Use> auto with_drag(Use&& use) const {
     return options.effects.drag ? std::visit(use, drag) : use(NoDrag{});
   }
-  template <bool some_fixed, bool with_drag, bool with_pressure, bool two_way>
+  [[nodiscard]] bool explicit_drag() const {
+    return options.drag_treatment == DragTreatment::explicit_in_both;
+  }
+  [[nodiscard]] std::variant<ResponseIs<Response::exact>, ResponseIs<Response::exact_unless_fixed>,
+                             ResponseIs<Response::at_once>>
+  response(bool some_fixed) const;
+  template <Response response, bool with_drag, bool with_pressure, bool two_way>
   Vec3 apply(const ParticleView& view, double dt, double share) const;
 
   cfd::GasCase gas_case;
@@ -191,6 +208,8 @@ struct Coupler::Impl {
   cfd::GasSolver gas;
   AnyLocator locator;
   AnyKernel kernel;
+  double diameter_over_radius; ///< diameter of a particle over the radius of its parcel
+  double particles_a_parcel;
   AnyDragLaw drag;
   AnyNusseltLaw nusselt;
   Weights weights;
@@ -382,10 +401,10 @@ template <class Law>
 double Coupler::Impl::drag_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
                               const Vec3& gas_velocity, ExchangeSums& mine) const {
   const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
-  const double d = 2 * view.radius[p];
+  const double d = diameter_over_radius * view.radius[p];
   const double slip = norm(gas_velocity - view.velocity[p]);
   const DragInput in{.reynolds = rho * eps * slip * d / mu, .void_fraction = eps};
-  double b = 3 * std::numbers::pi * mu * d * eps * law(in);
+  double b = particles_a_parcel * 3 * std::numbers::pi * mu * d * eps * law(in);
   if (options.model == MomentumModel::b)
     b /= eps;
   mine.law_out_of_range += law.valid.contains(in) ? 0 : 1;
@@ -406,24 +425,27 @@ ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, dou
     }
     const auto& [eps, ux, uy, uz] = old_gas[p].of;
     state.void_fraction = eps;
+    const Vec3 gas_velocity{ux, uy, uz};
     double b_eff = 0;
     if constexpr (!std::is_same_v<Law, NoDrag>) {
-      const double b = drag_of(law, view, p, eps, {ux, uy, uz}, mine);
+      const double b = drag_of(law, view, p, eps, gas_velocity, mine);
       const bool fixed = !view.fixed.empty() && view.fixed[p];
-      b_eff = fixed ? b : effective_coefficient(b, view.mass[p], interval);
+      const bool at_once = fixed || options.drag_treatment != DragTreatment::implicit_in_both;
+      b_eff = at_once ? b : effective_coefficient(b, view.mass[p], interval);
       state.drag_coefficient = b;
       if (!fixed)
         mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
     }
     const Vec3 hand_over = state.impulse - state.booked;
-    const Vec3 source = b_eff * view.velocity[p] - hand_over / interval;
+    const Vec3 still = explicit_drag() ? gas_velocity : Vec3{};
+    const Vec3 source = b_eff * (view.velocity[p] - still) - hand_over / interval;
     drag_terms[p] = {{b_eff, source.x, source.y, source.z}};
     mine.handed_over += hand_over;
     mine.exchanged += norm(hand_over);
   });
 }
 
-void Coupler::Impl::set_momentum_exchange() {
+void Coupler::Impl::set_momentum_exchange(double interval, ExchangeSums& sums) {
   deposit(drag_terms);
   const bool gas_bears_all =
       options.model == MomentumModel::b || !options.effects.pressure_gradient;
@@ -434,6 +456,21 @@ void Coupler::Impl::set_momentum_exchange() {
         momentum.drag_source[b][d][c] = work[1 + d][b][c];
       momentum.pressure_fraction[b][c] = gas_bears_all ? 1 : void_fraction[b][c];
     });
+  if (explicit_drag())
+    take_drag_at_start(interval, sums);
+}
+
+/// The source is the drag of the slip before the gas step: nothing is left to go with the new
+/// velocity, neither here nor in the pressure equation.
+void Coupler::Impl::take_drag_at_start(double interval, ExchangeSums& sums) {
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
+    const double largest = cfd::max_cells(mesh.local[b].layout, 0, [&](std::ptrdiff_t c) {
+      return momentum.drag_coefficient[b][c] / void_fraction[b][c];
+    });
+    sums.gas_drag_number_max =
+        std::max(sums.gas_drag_number_max, interval * largest / gas.fluid().density);
+    momentum.drag_coefficient[b].fill(0);
+  }
 }
 
 void Coupler::Impl::sample_new_gas() {
@@ -470,6 +507,8 @@ ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
       return;
     FluidState& state = view.fluid[p];
     show_new_gas(p, view.radius[p], state);
+    if (explicit_drag())
+      state.gas_velocity = {old_gas[p].of[1], old_gas[p].of[2], old_gas[p].of[3]};
     const Vec3 drag_force = drag_terms[p].of[0] * (state.gas_velocity - view.velocity[p]);
     state.booked = interval * (drag_force + state.pressure_force);
     state.impulse = {};
@@ -517,8 +556,9 @@ template <class Law>
 double Coupler::Impl::conductance_of(const Law& law, const ParticleView& view, std::size_t p,
                                      double eps, const Vec3& gas_velocity, double interval,
                                      ExchangeSums& mine) const {
-  const double d = 2 * view.radius[p], given = options.heat_transfer_coefficient;
-  double conductance = std::numbers::pi * d * d * given;
+  const double d = diameter_over_radius * view.radius[p];
+  const double given = options.heat_transfer_coefficient;
+  double conductance = particles_a_parcel * std::numbers::pi * d * d * given;
   if (!(given > 0)) {
     const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
     const double k = gas_case.energy->conductivity;
@@ -526,7 +566,7 @@ double Coupler::Impl::conductance_of(const Law& law, const ParticleView& view, s
     const NusseltInput in{.reynolds = rho * eps * slip * d / mu,
                           .prandtl = mu * gas_case.energy->heat_capacity / k,
                           .void_fraction = eps};
-    conductance = std::numbers::pi * d * k * law(in);
+    conductance = particles_a_parcel * std::numbers::pi * d * k * law(in);
     mine.nusselt_out_of_range += law.valid.contains(in) ? 0 : 1;
   }
   if (view.fixed_temperature.empty() || !view.fixed_temperature[p])
@@ -602,7 +642,17 @@ ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval)
   });
 }
 
-template <bool some_fixed, bool with_drag, bool with_pressure, bool two_way>
+std::variant<ResponseIs<Response::exact>, ResponseIs<Response::exact_unless_fixed>,
+             ResponseIs<Response::at_once>>
+Coupler::Impl::response(bool some_fixed) const {
+  if (options.drag_treatment != DragTreatment::implicit_in_both)
+    return ResponseIs<Response::at_once>();
+  if (some_fixed)
+    return ResponseIs<Response::exact_unless_fixed>();
+  return ResponseIs<Response::exact>();
+}
+
+template <Response response, bool with_drag, bool with_pressure, bool two_way>
 Vec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) const {
   const Vec3 weight_of_gas = -gas.fluid().density * gas.fluid().gravity;
   return sum_particles<Vec3>(view.size(), [&](std::size_t p, Vec3& mine) {
@@ -616,12 +666,15 @@ Vec3 Coupler::Impl::apply(const ParticleView& view, double dt, double share) con
       buoyancy = sphere_volume(view.radius[p]) * weight_of_gas;
       exchanged = state.pressure_force;
     }
-    if constexpr (with_drag) {
+    if constexpr (with_drag && response == Response::at_once) {
+      const Vec3 drag_force = state.drag_coefficient * (state.gas_velocity - view.velocity[p]);
+      exchanged = with_pressure ? drag_force + state.pressure_force : drag_force;
+    } else if constexpr (with_drag) {
       Vec3 other = view.force[p];
       if constexpr (with_pressure)
         other = view.force[p] + state.pressure_force + buoyancy;
       double lambda = state.drag_coefficient * dt / view.mass[p];
-      if constexpr (some_fixed)
+      if constexpr (response == Response::exact_unless_fixed)
         lambda = view.fixed[p] ? 0 : lambda;
       const Vec3 drag_force =
           exact_drag(state.drag_coefficient, lambda, state.gas_velocity, view.velocity[p], other);
@@ -678,7 +731,7 @@ void Coupler::Impl::exchange_two_way(const ParticleView& view, double interval,
     sums += with_drag([&](const auto& law) { return charge(law, view, interval); });
   }
   if (options.effects.any_force())
-    set_momentum_exchange();
+    set_momentum_exchange(interval, sums);
   const bool with_heat = gas_case.energy.has_value();
   if (with_heat) {
     {
@@ -780,10 +833,10 @@ void Coupler::apply(const ParticleView& view, double dt, double share) {
                      : std::false_type{};
   };
   s.ledger.received(std::visit(
-      [&](auto fixed, auto drag, auto pressure, auto two_way) {
-        return s.apply<fixed, drag, pressure, two_way>(view, dt, share);
+      [&](auto response, auto drag, auto pressure, auto two_way) {
+        return s.apply<response, drag, pressure, two_way>(view, dt, share);
       },
-      choice(!view.fixed.empty()), choice(effects.drag), choice(effects.pressure_gradient),
+      s.response(!view.fixed.empty()), choice(effects.drag), choice(effects.pressure_gradient),
       choice(effects.two_way)));
 }
 

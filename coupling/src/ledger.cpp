@@ -54,6 +54,7 @@ ExchangeSums& ExchangeSums::operator+=(const ExchangeSums& o) & {
   exchanged += o.exchanged;
   slip_reynolds_max = std::max(slip_reynolds_max, o.slip_reynolds_max);
   stiffness_max = std::max(stiffness_max, o.stiffness_max);
+  gas_drag_number_max = std::max(gas_drag_number_max, o.gas_drag_number_max);
   void_fraction_min = std::min(void_fraction_min, o.void_fraction_min);
   nusselt_out_of_range += o.nusselt_out_of_range;
   heat_stiffness_max = std::max(heat_stiffness_max, o.heat_stiffness_max);
@@ -117,6 +118,7 @@ void Ledger::close(const ExchangeSums& local, const cfd::Balance& gas, double in
   report.law_out_of_range = long(sums.law_out_of_range);
   report.slip_reynolds_max = sums.slip_reynolds_max;
   report.stiffness_max = sums.stiffness_max;
+  report.gas_drag_number_max = sums.gas_drag_number_max;
   report.void_fraction_min = sums.void_fraction_min;
   report.particle_volume = sums.particle_volume.value();
   const double volume_error = std::abs(sums.solid_volume.value() - report.particle_volume);

@@ -45,6 +45,12 @@ CouplingOptions read_coupling(cfd::CaseFile& file) {
                                          cfd::not_negative, "particle diameters");
   options.model =
       table.choice("model", options.model, {{"a", MomentumModel::a}, {"b", MomentumModel::b}});
+  options.drag_treatment = table.choice("drag_treatment", options.drag_treatment,
+                                        {{"explicit", DragTreatment::explicit_in_both},
+                                         {"semi_implicit", DragTreatment::implicit_in_gas},
+                                         {"implicit", DragTreatment::implicit_in_both}});
+  options.coarse_graining =
+      table.number("coarse_graining", options.coarse_graining, cfd::NumberRange{.low = 1}, "");
   options.void_fraction_floor =
       table.number("void_fraction_floor", options.void_fraction_floor, open_share, "");
   return options;

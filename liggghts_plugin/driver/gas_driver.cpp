@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/core.h>
@@ -99,6 +100,7 @@ void GasDriver::describe(coupling::SceneState& scene) const {
       if (boundary.kind == cfd::BoundaryKind::inlet)
         scene.meets(boundary.temperature);
   }
+  gas.coarse_graining = coupling_options_.coarse_graining;
   gas.length = scene.box_length;
   if (!(scene.gravity > 0))
     scene.gravity = norm(fluid.gravity);
@@ -157,6 +159,11 @@ std::string GasDriver::summary() const {
                   fluid.density, fluid.viscosity, cells, fluid.gravity.x, fluid.gravity.y,
                   fluid.gravity.z, coupling_options_.drag, coupling_options_.void_fraction,
                   coupling_options_.model == coupling::MomentumModel::a ? "a" : "b");
+  if (coupling_options_.coarse_graining > 1)
+    text += fmt::format("granflux: each particle is a parcel of {:g} particles, {:g} times their "
+                        "diameter\n",
+                        std::pow(coupling_options_.coarse_graining, 3),
+                        coupling_options_.coarse_graining);
   for (const cfd::BoundaryCondition& boundary : gas_case_.boundaries)
     if (boundary.kind == cfd::BoundaryKind::inlet)
       text += fmt::format("granflux: inlet {}: {:g} {:g} {:g} m/s\n", boundary.name,

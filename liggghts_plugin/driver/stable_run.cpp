@@ -21,6 +21,7 @@ using cfd::Bound;
 
 // docs/reference/stable_range.md tells where these come from.
 constexpr double drag_limit = 1.5, drag_advised = 1;
+constexpr double explicit_limit = 2, explicit_advised = 1;
 constexpr double advised_cell = 3;                                                   // diameters
 constexpr double densest_packing = 1 - std::numbers::pi / (3 * std::numbers::sqrt2); // its voids
 
@@ -62,13 +63,7 @@ StableRun::StableRun(const cfd::GasCase& gas_case, const coupling::CouplingOptio
                                           "\"implicit\"";
   }));
   friction_ = range_.add(cfd::friction_bound());
-  drag_ = range_.add({.name = "coupling interval / response time",
-                      .limit = drag_limit,
-                      .advised = drag_advised,
-                      .cure = [this](double number) {
-                        return fewer_steps(drag_limit, number) + ", or fixed_group for particles "
-                                                                 "that something holds";
-                      }});
+  add_drag(options);
   if (with_heat_)
     heat_ = range_.add({.name = "coupling interval / thermal time", .cure = [](double) {
                           return "nothing needed: heat is exchanged exactly";
@@ -97,6 +92,36 @@ StableRun::StableRun(const cfd::GasCase& gas_case, const coupling::CouplingOptio
                   .cure = [width](double) { return width + ", or larger [grid] cells"; }});
   rows_.resize(range_.size());
   std::iota(rows_.begin(), rows_.end(), std::size_t(0));
+}
+
+void StableRun::add_drag(const coupling::CouplingOptions& options) {
+  using coupling::DragTreatment;
+  if (options.drag_treatment == DragTreatment::implicit_in_both) {
+    drag_ = range_.add({.name = "coupling interval / response time",
+                        .limit = drag_limit,
+                        .advised = drag_advised,
+                        .cure = [this](double number) {
+                          return fewer_steps(drag_limit, number) +
+                                 ", or fixed_group for particles that something holds";
+                        }});
+    return;
+  }
+  const char* const cure = ", or [coupling] drag_treatment = \"implicit\"";
+  drag_of_step_ = true;
+  drag_ = range_.add({.name = "DEM step / response time",
+                      .limit = explicit_limit,
+                      .advised = explicit_advised,
+                      .cure = [this, cure](double number) {
+                        const double step = number > 0 ? time_step_ * explicit_limit / number : 0;
+                        return fmt::format("timestep up to {:.3g}{}", step, cure);
+                      }});
+  if (options.drag_treatment == DragTreatment::explicit_in_both && options.effects.two_way)
+    slip_ = range_.add({.name = "coupling interval x decay rate of the slip",
+                        .limit = explicit_limit,
+                        .advised = explicit_advised,
+                        .cure = [this, cure](double number) {
+                          return fewer_steps(explicit_limit, number) + cure;
+                        }});
 }
 
 void StableRun::set_mesh(const cfd::Mesh& mesh, const cfd::GasSolver& gas) {
@@ -131,7 +156,9 @@ void StableRun::look(Host& host, const coupling::ParticleView& particles, double
 void StableRun::follow(const coupling::ExchangeReport& report) {
   courant_number_ = report.gas.courant;
   range_.set(courant_, std::max(courant_number_, inlet_courant_rate_ * interval_));
-  range_.set(drag_, report.stiffness_max);
+  range_.set(drag_, report.stiffness_max * (drag_of_step_ ? time_step_ / interval_ : 1));
+  if (slip_)
+    range_.set(*slip_, report.gas_drag_number_max + report.stiffness_max);
   range_.set(void_fraction_, report.void_fraction_min);
   if (with_heat_)
     range_.set(heat_, report.heat_stiffness_max);

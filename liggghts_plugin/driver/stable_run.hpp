@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mpi.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,12 +41,15 @@ public:
   [[nodiscard]] std::string likely_cause() const;
 
 private:
+  void add_drag(const coupling::CouplingOptions& options);
   [[nodiscard]] std::string fewer_steps(double limit, double number) const;
 
   cfd::StableRange range_;
   ParticleBounds particle_bounds_;
-  std::size_t courant_, friction_, drag_, cell_, void_fraction_, heat_ = 0;
-  std::vector<std::size_t> rows_; // all of them
+  std::size_t courant_, friction_, drag_ = 0, cell_, void_fraction_, heat_ = 0;
+  std::optional<std::size_t> slip_; // where drag is explicit in the gas
+  bool drag_of_step_ = false;       // the particle step counts, not the coupling interval
+  std::vector<std::size_t> rows_;   // all of them
   const cfd::GasCase& gas_case_;
   bool with_heat_;
   ContactTimes times_;

@@ -35,16 +35,21 @@ TEST(ReadCoupling, DefaultsHoldForAnEmptyTable) {
   EXPECT_EQ(options.smoothing_width, 3);
   EXPECT_EQ(options.model, coupling::MomentumModel::a);
   EXPECT_EQ(options.void_fraction_floor, 0.05);
+  EXPECT_EQ(options.drag_treatment, coupling::DragTreatment::implicit_in_both);
+  EXPECT_EQ(options.coarse_graining, 1);
 }
 
 TEST(ReadCoupling, TakesEveryKey) {
   const auto options = read("drag = \"di_felice\"\nvoid_fraction = \"divided\"\n"
-                            "smoothing_width = 2.5\nmodel = \"b\"\nvoid_fraction_floor = 0.2\n");
+                            "smoothing_width = 2.5\nmodel = \"b\"\nvoid_fraction_floor = 0.2\n"
+                            "drag_treatment = \"explicit\"\ncoarse_graining = 2.5\n");
   EXPECT_EQ(options.drag, "di_felice");
   EXPECT_EQ(options.void_fraction, "divided");
   EXPECT_EQ(options.smoothing_width, 2.5);
   EXPECT_EQ(options.model, coupling::MomentumModel::b);
   EXPECT_EQ(options.void_fraction_floor, 0.2);
+  EXPECT_EQ(options.drag_treatment, coupling::DragTreatment::explicit_in_both);
+  EXPECT_EQ(options.coarse_graining, 2.5);
 }
 
 TEST(ReadCoupling, AnswersAnUnknownNameWithTheKnownOnes) {
@@ -64,6 +69,10 @@ TEST(ReadCoupling, RefusesWhatIsOutOfRange) {
   EXPECT_NE(complaint("void_fraction_floor = 1.0"), "");
   EXPECT_NE(complaint("model = \"c\""), "");
   EXPECT_NE(complaint("smoothing = 3"), "");
+  EXPECT_NE(complaint("coarse_graining = 0.5").find("coarse_graining"), std::string::npos);
+  const std::string treatment = complaint("drag_treatment = \"exact\"");
+  for (const char* name : {"explicit", "semi_implicit", "implicit"})
+    EXPECT_NE(treatment.find(name), std::string::npos) << treatment;
 }
 
 } // namespace

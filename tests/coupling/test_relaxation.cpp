@@ -16,8 +16,11 @@ namespace {
 
 using namespace granflux;
 
-constexpr double rate = 1000 / 0.72 + 1000 / 400.; // 1/s
-constexpr double final_velocity = 0.72 / 400.72;   // m/s
+using coupling::DragTreatment;
+
+constexpr double gas_rate = 1000 / 0.72, solid_rate = 1000 / 400.; // 1/s
+constexpr double rate = gas_rate + solid_rate;
+constexpr double final_velocity = 0.72 / 400.72; // m/s
 constexpr int cells = 4, per_cell = 2;
 constexpr double cell_size = 1; // mm would do as well: nothing here has a length
 
@@ -35,17 +38,21 @@ cfd::GasCase make_case(double d) {
 }
 
 struct Relaxation {
-  std::vector<double> gas, solid; ///< mean velocities after each step [m/s]
-  double momentum_error = 0;      ///< largest, relative to the initial momentum
+  std::vector<double> gas, solid;            ///< mean velocities after each step [m/s]
+  double momentum_error = 0;                 ///< largest, relative to the initial momentum
+  double gas_drag_number = 0, stiffness = 0; ///< of the last report
+
+  [[nodiscard]] double slip(std::size_t step) const { return gas[step] - solid[step]; }
 };
 
-Relaxation relax(double dt, int steps) {
+Relaxation relax(double dt, int steps, DragTreatment treatment = DragTreatment::implicit_in_both) {
   const double volume = 0.4 * std::pow(cell_size / per_cell, 3);
   const double radius = std::cbrt(volume * 3 / (4 * std::numbers::pi));
   const cfd::GasCase c = make_case(2 * radius);
   coupling::CouplingOptions options;
   options.drag = "stokes";
   options.void_fraction = "trilinear";
+  options.drag_treatment = treatment;
   coupling::Coupler coupler(c, options, MPI_COMM_WORLD);
   const double size = cells * cell_size;
   granflux::testing::FakeHost host({0, 0, 0}, {size, size, size}, {true, true, true},
@@ -70,6 +77,8 @@ Relaxation relax(double dt, int steps) {
     EXPECT_LT(coupler.report().momentum_residual, 1e-12);
     EXPECT_LT(coupler.report().volume_residual, 1e-12);
     EXPECT_LT(coupler.report().budget_residual, 1e-10);
+    result.gas_drag_number = coupler.report().gas_drag_number_max;
+    result.stiffness = coupler.report().stiffness_max;
   }
   return result;
 }
@@ -91,36 +100,54 @@ TEST(Relaxation, IsMonotoneAndConservesMomentumHoweverStiff) {
   }
 }
 
-/// Slip after some explicit steps of the two equations: each multiplies it by 1 - dt rate.
-double explicit_slip(double stiffness, int steps) {
-  const double dt = stiffness / rate;
-  double u = 1, v = 0;
-  for (int s = 0; s < steps; ++s) {
-    const double drag = 1000 * (u - v);
-    u -= dt * drag / 0.72;
-    v += dt * drag / 400;
+/// What one step makes of the slip, with a = gas_rate dt and c = solid_rate dt.
+double slip_factor(DragTreatment treatment, double dt) {
+  const double a = gas_rate * dt, c = solid_rate * dt;
+  return treatment == DragTreatment::explicit_in_both ? 1 - a - c : (1 - c) / (1 + a);
+}
+
+TEST(Relaxation, EachTreatmentIsItsDifferenceEquation) {
+  for (const auto treatment : {DragTreatment::explicit_in_both, DragTreatment::implicit_in_gas})
+    for (const double stiffness : {0.1, 0.5, 1., 1.5}) {
+      const double dt = stiffness / rate, factor = slip_factor(treatment, dt);
+      const Relaxation r = relax(dt, 6, treatment);
+      EXPECT_LT(r.momentum_error, 1e-12) << "dt x rate " << stiffness;
+      double slip = 1;
+      for (std::size_t s = 0; s < r.gas.size(); ++s)
+        EXPECT_NEAR(r.slip(s), slip *= factor, 1e-11) << "dt x rate " << stiffness << ", " << s;
+    }
+}
+
+TEST(Relaxation, ExplicitDragBlowsUpBeyondTwo) {
+  const auto treatment = DragTreatment::explicit_in_both;
+  const Relaxation below = relax(1.9 / rate, 40, treatment);
+  EXPECT_NEAR(std::abs(below.slip(39)), std::pow(0.9, 40), 1e-9);
+  // The two numbers that the stable range adds up are what counts.
+  EXPECT_NEAR(below.gas_drag_number, 1.9 * gas_rate / rate, 1e-10);
+  EXPECT_NEAR(below.stiffness, 1.9 * solid_rate / rate, 1e-10);
+  const Relaxation above = relax(2.2 / rate, 20, treatment);
+  EXPECT_NEAR(above.slip(19), std::pow(1.2, 20), 1e-9);
+  EXPECT_GT(above.slip(19), 38);
+}
+
+TEST(Relaxation, DragImplicitInTheGasBearsSuchSteps) {
+  const Relaxation r = relax(100 / rate, 40, DragTreatment::implicit_in_gas);
+  EXPECT_LT(std::abs(r.slip(39)), 1e-12);
+  EXPECT_EQ(r.gas_drag_number, 0);
+}
+
+TEST(Relaxation, EachTreatmentConvergesToTheClosedForm) {
+  // Slip after 1/rate; all are of first order in dt.
+  for (const auto treatment : {DragTreatment::explicit_in_both, DragTreatment::implicit_in_gas,
+                               DragTreatment::implicit_in_both}) {
+    const auto slip = [&](int steps) {
+      return relax(1 / rate / steps, steps, treatment).slip(std::size_t(steps - 1));
+    };
+    const double exact = std::exp(-1.);
+    const double coarse = slip(20) - exact, fine = slip(40) - exact;
+    EXPECT_NEAR(std::log2(coarse / fine), 1, 0.1) << int(treatment);
+    EXPECT_NEAR(2 * fine - coarse, 0, 1e-3 * exact) << int(treatment);
   }
-  return u - v;
-}
-
-TEST(Relaxation, ExplicitDragOvershootsBeyondOneAndBlowsUpBeyondTwo) {
-  EXPECT_GT(explicit_slip(0.1, 1), 0);
-  EXPECT_LT(explicit_slip(1.5, 1), 0);
-  EXPECT_LT(std::abs(explicit_slip(1.5, 40)), 1e-9);
-  for (const double stiffness : {10., 100., 1000.})
-    EXPECT_GT(std::abs(explicit_slip(stiffness, 40)), 1e30) << stiffness;
-}
-
-TEST(Relaxation, RateConvergesToTheClosedForm) {
-  // Slip after 1/rate; the gas is implicit Euler, so the error is of first order in dt.
-  const auto slip = [](int steps) {
-    const Relaxation r = relax(1 / rate / steps, steps);
-    return r.gas.back() - r.solid.back();
-  };
-  const double exact = std::exp(-1.);
-  const double coarse = slip(20) - exact, fine = slip(40) - exact;
-  EXPECT_NEAR(std::log2(coarse / fine), 1, 0.1);
-  EXPECT_NEAR(2 * fine - coarse, 0, 1e-3 * exact);
 }
 
 } // namespace

@@ -75,6 +75,17 @@ TEST(SceneNumbers, DragWithoutGravityIsOneOverStokes) {
   near(DragOverWeight{}(s), 1 / StokesNumber{}(s));
 }
 
+TEST(SceneNumbers, OfParcelsAreThoseOfTheirParticles) {
+  const SceneState s = warm_dust();
+  SceneState parcels = warm_dust();
+  parcels.particles.diameter *= 3;
+  parcels.gas->coarse_graining = 3;
+  near(ParticleReynolds{}(parcels), ParticleReynolds{}(s));
+  near(StokesNumber{}(parcels), StokesNumber{}(s));
+  near(DragOverWeight{}(parcels), DragOverWeight{}(s));
+  near(convection_conductance_of(parcels), 27 * convection_conductance_of(s));
+}
+
 TEST(SceneNumbers, OfCoupling) {
   SceneState s = dust();
   s.particles.solid_fraction = 1e-3;

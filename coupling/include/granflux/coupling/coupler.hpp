@@ -17,6 +17,16 @@ namespace granflux::coupling {
 /// the particles' share folded into the drag (beta_B = beta_A / eps).
 enum class MomentumModel { a, b };
 
+/// Which phase takes the drag at its own new velocity (docs/theory_coupling.md, section 8).
+enum class DragTreatment {
+  /// None: both take it at the slip of the coupling step. Stable within limits of the steps.
+  explicit_in_both,
+  /// The gas; particles take it at their velocity before each step, which has a limit.
+  implicit_in_gas,
+  /// Both, the particles exactly: any step is stable.
+  implicit_in_both
+};
+
 /// What gas and particles do to each other; what is off is not computed.
 struct ExchangeEffects {
   /// Particles displace the gas and take momentum and heat out of it. Off: it flows as if there
@@ -37,6 +47,10 @@ struct CouplingOptions {
   double heat_transfer_coefficient = 0;    ///< W/(m2 K); above 0 it takes the law's place
   double smoothing_width = 3;              ///< of the smoothed kernel, in particle diameters
   MomentumModel model = MomentumModel::a;
+  DragTreatment drag_treatment = DragTreatment::implicit_in_both;
+  /// Diameter of a parcel over that of the particles it stands for, 1 or more: the particles of the
+  /// host are parcels of coarse_graining^3 particles each, which take drag and heat singly.
+  double coarse_graining = 1;
   /// A cell below this void fraction stops the run; nothing is clamped.
   double void_fraction_floor = 0.05;
   ExchangeEffects effects;
@@ -67,6 +81,9 @@ struct ExchangeReport {
   /// Largest b T/m of a particle that is not fixed: coupling interval over response time. Above
   /// 1.5 gas in a packed bed is not stable (docs/theory_coupling.md, section 7).
   double stiffness_max = 0;
+  /// Largest T beta/(eps rho) of a cell, beta the drag coefficient in it: what the gas step is of
+  /// the time in which drag alone would stop the gas. Only where it is explicit in the gas, else 0.
+  double gas_drag_number_max = 0;
   long law_out_of_range = 0; ///< particles outside the drag law's range of validity
   // Heat, where the gas has an energy equation.
   /// Heat that the particles took from the gas, mean over the interval, what the last interval was

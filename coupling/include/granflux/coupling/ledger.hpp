@@ -20,7 +20,7 @@ struct ExchangeSums {
   CompensatedVec3 booked;         ///< taken from the gas for the coming interval [N s]
   CompensatedVec3 handed_over;    ///< impulse less booked of the last interval [N s]
   CompensatedSum exchanged;       ///< sum of |booked| + |handed over| [N s]
-  double slip_reynolds_max = 0, stiffness_max = 0;
+  double slip_reynolds_max = 0, stiffness_max = 0, gas_drag_number_max = 0;
   double void_fraction_min = 1;
   // The same of heat.
   double nusselt_out_of_range = 0, heat_stiffness_max = 0;

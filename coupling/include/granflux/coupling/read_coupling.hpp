@@ -13,6 +13,8 @@ namespace granflux::coupling {
 ///   void_fraction        name of a kernel              smoothed
 ///   smoothing_width      in particle diameters, >= 0   3
 ///   model                "a" or "b"                    a
+///   drag_treatment       "explicit", "semi_implicit" or "implicit"   implicit
+///   coarse_graining      parcel over particle diameter, >= 1   1
 ///   void_fraction_floor  between 0 and 1               0.05
 ///
 /// Throws ConfigError; an unknown name is answered with the list of those known.

@@ -41,19 +41,27 @@ inline constexpr double packed_contacts = 6;
   return s.gas->speed / void_fraction_of(s) + std::max(s.particles.speed, walls);
 }
 
+/// As the gas meets particles: of those that a parcel stands for [m].
+[[nodiscard]] inline double diameter_in_gas(const SceneState& s) {
+  return s.particles.diameter / (s.gas ? s.gas->coarse_graining : 1);
+}
+[[nodiscard]] inline double particles_a_parcel(const SceneState& s) {
+  return s.gas ? std::pow(s.gas->coarse_graining, 3) : 1;
+}
+
 [[nodiscard]] inline double reynolds_of(const SceneState& s) {
-  return s.gas ? s.gas->density * void_fraction_of(s) * slip_of(s) * s.particles.diameter /
+  return s.gas ? s.gas->density * void_fraction_of(s) * slip_of(s) * diameter_in_gas(s) /
                      s.gas->viscosity
                : 0;
 }
 
-/// Drag coefficient of one particle, by Wen and Yu [kg/s].
+/// Drag coefficient of one particle or parcel, by Wen and Yu [kg/s].
 [[nodiscard]] inline double drag_coefficient_of(const SceneState& s) {
   if (!s.gas)
     return 0;
   const double eps = void_fraction_of(s);
-  return 3 * std::numbers::pi * s.gas->viscosity * s.particles.diameter * eps *
-         WenYu{}({.reynolds = reynolds_of(s), .void_fraction = eps});
+  return particles_a_parcel(s) * 3 * std::numbers::pi * s.gas->viscosity * diameter_in_gas(s) *
+         eps * WenYu{}({.reynolds = reynolds_of(s), .void_fraction = eps});
 }
 
 /// Collisions of a particle in a second, by kinetic theory without crowding.
@@ -129,7 +137,7 @@ inline constexpr double unknown_contact = 0.1;
   if (!s.gas || !(s.gas->conductivity > 0))
     return 0;
   const double prandtl = s.gas->viscosity * s.gas->heat_capacity / s.gas->conductivity;
-  return std::numbers::pi * s.particles.diameter * s.gas->conductivity *
+  return particles_a_parcel(s) * std::numbers::pi * diameter_in_gas(s) * s.gas->conductivity *
          Gunn{}({.reynolds = reynolds_of(s),
                  .prandtl = prandtl,
                  .void_fraction = void_fraction_of(s)});

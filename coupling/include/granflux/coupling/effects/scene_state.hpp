@@ -29,6 +29,8 @@ struct GasOfScene {
   double conductivity = 0;  ///< 0: it has no temperature [W/(m K)]
   double heat_capacity = 0; ///< J/(kg K)
   double expansion = 0;     ///< 1/K
+  /// Diameter of the scene's particles, if parcels, over that of those they stand for.
+  double coarse_graining = 1;
 
   /// Largest that anything imposes [m/s].
   [[nodiscard]] double driven() const { return std::max(speed, wall_speed); }
