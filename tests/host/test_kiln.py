@@ -5,6 +5,7 @@
 import re
 import unittest
 
+from host import last_snapshot
 from small_kiln import DIVISIONS, DRUM, PARTICLES, SmallKiln, kiln
 
 
@@ -44,6 +45,34 @@ class Kiln(SmallKiln):
         print(f"energy not accounted for, of what is dissipated: {coarse:.1e}, with half the step {fine:.1e}")
         self.assertLess(abs(coarse), 0.015)
         self.assertLess(abs(fine), 0.7 * abs(coarse))
+
+    def test_continues_bit_for_bit(self):
+        # Ends of triangles that turn, gas on blocks fitted to the drum, heat and friction.
+        self.settle()
+        script = (self.folder / "in.kiln").read_text().partition("timestep ")[0]
+        digits = "dump_modify end sort id format \"%d" + " %.17g" * 13 + '"\n'
+        moving = "".join(f"fix turn_{end} all move/mesh mesh {end} rotate origin 0. 0. 0. axis 0. 0. 1. period 3.\n" for end in ("low", "high"))
+        for ranks, threads, every, more in ((1, 2, 30, ""), (2, 1, 33, moving)):
+
+            def run(name, to, start="settled.restart"):
+                end = f"dump end all custom 100 {name} id x y z vx vy vz omegax omegay omegaz f_Temp fx fy fz\n{digits}"
+                end += f"fix keep all granflux/checkpoint kiln.checkpoint every {every}\ntimestep ${{dt}}\nrun {to} upto\n"
+                text = script.replace("read_restart    settled.restart", f"read_restart {start}")
+                variables = dict(DRUM, couple_every=10)
+                options = [word for name, value in variables.items() for word in ("-var", name, str(value))]
+                return self.run_script(text + more + end, ranks, options=["-threads", str(threads), *options])
+
+            with self.subTest(ranks=ranks, threads=threads, every=every):
+                if more:  # triangles that move; else they have a speed of their own
+                    contacts = self.read("in.contacts")
+                    self.write("in.contacts", re.sub(r" &\n +surface_ang_vel .*\$\{turn\}", "", contacts))
+                    self.assertNotEqual(self.read("in.contacts"), contacts)
+                run("whole", 100)
+                run("first", 2 * every + 5)
+                run("again", 100, "kiln.checkpoint")
+                whole, again = last_snapshot(self.read("whole")), last_snapshot(self.read("again"))
+                self.assertEqual(len(whole), PARTICLES)
+                self.assertEqual(whole, again)
 
     def test_other_ends(self):
         case = self.read("kiln.toml")
