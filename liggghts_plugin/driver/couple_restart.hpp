@@ -15,6 +15,7 @@ namespace granflux::driver {
 /// particles. Equal on all ranks.
 struct CoupleState {
   double time_step = 0;        ///< of the particles [s]
+  double steps = 0;            ///< of the last coupling step
   double steps_left = 0;       ///< until the next coupling step
   double owed = 0;             ///< see CoupleClock [s]
   double next_fields_time = 0; ///< gas time of the next CGNS file [s]

@@ -203,7 +203,9 @@ void GasDriver::begin(Host& host, double dt) {
   if (restored_) {
     const CoupleState& state = restored_->state;
     load_restored(*coupler);
-    clock_.restore(state.time_step, long(state.steps_left), state.owed);
+    const bool follows = gas_case_.numerics.courant > 0;
+    clock_.restore(state.time_step, follows ? int(state.steps) : clock_.every(),
+                   long(state.steps_left), state.owed);
     last_force_dt_ = state.time_step;
     next_fields_time_ = state.next_fields_time;
   } else {
@@ -303,6 +305,7 @@ void GasDriver::look(Host& host, const coupling::ParticleView& particles) {
 
 void GasDriver::exchange(Host& host, long step) {
   explaining(host, step, [&] {
+    follow_courant();
     const coupling::ParticleView particles = host.particles(true);
     look(host, particles);
     stable_->follow(coupler_->exchange(particles, clock_.interval()));
@@ -313,6 +316,13 @@ void GasDriver::exchange(Host& host, long step) {
   largest_.add(coupler_->report(), coupler_->gas().balance());
   warn_of_neglected(host);
   write_fields();
+}
+
+/// Where the case says so, the gas step is as long as the gas itself allows.
+void GasDriver::follow_courant() {
+  const double courant = gas_case_.numerics.courant;
+  if (courant > 0)
+    clock_.keep_within(courant / coupler_->gas().courant_rate());
 }
 
 /// Each number once: what is beyond its limit is not to be trusted from here on.
@@ -493,6 +503,7 @@ void GasDriver::write_state(std::FILE* file) const {
   if (!coupler_)
     return write_couple_state(restored_, file, comm_);
   const CoupleState state{.time_step = clock_.time_step(),
+                          .steps = double(clock_.steps()),
                           .steps_left = double(clock_.steps_left()),
                           .owed = clock_.owed(),
                           .next_fields_time = next_fields_time_,

@@ -98,6 +98,7 @@ private:
   [[nodiscard]] std::string summary() const;
   void look(Host& host, const coupling::ParticleView& particles);
   void exchange(Host& host, long step);
+  void follow_courant();
   void warn_of_limits(Host& host);
   template <class Work> void explaining(Host& host, long step, Work&& work);
   void apply(Host& host, double share);

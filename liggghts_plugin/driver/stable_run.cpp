@@ -148,14 +148,20 @@ void StableRun::look(Host& host, const coupling::ParticleView& particles, double
   else
     range_.forget(cell_, "no particles yet");
   range_.set(friction_, friction_rate_ * interval_);
-  range_.set(courant_, std::max(courant_number_, inlet_courant_rate_ * interval_));
+  range_.set(courant_, std::max(courant_number_, courant_of_inlets()));
   if (!found.good)
     coupling::throw_together<NumericalError>(comm, judge.complaint(particles));
 }
 
+/// What the gas would have by its inlets alone, or the number that its steps follow.
+double StableRun::courant_of_inlets() const {
+  const double followed = gas_case_.numerics.courant, number = inlet_courant_rate_ * interval_;
+  return followed > 0 ? std::min(followed, number) : number;
+}
+
 void StableRun::follow(const coupling::ExchangeReport& report) {
   courant_number_ = report.gas.courant;
-  range_.set(courant_, std::max(courant_number_, inlet_courant_rate_ * interval_));
+  range_.set(courant_, std::max(courant_number_, courant_of_inlets()));
   range_.set(drag_, report.stiffness_max * (drag_of_step_ ? time_step_ / interval_ : 1));
   if (slip_)
     range_.set(*slip_, report.gas_drag_number_max + report.stiffness_max);

@@ -41,6 +41,7 @@ public:
   [[nodiscard]] std::string likely_cause() const;
 
 private:
+  [[nodiscard]] double courant_of_inlets() const;
   void add_drag(const coupling::CouplingOptions& options);
   [[nodiscard]] std::string fewer_steps(double limit, double number) const;
 

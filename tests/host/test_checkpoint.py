@@ -81,6 +81,27 @@ class Checkpoint(HostTest):
                 self.assertEqual(self.last("whole"), self.last("again"))
                 self.assertEqual(whole[-1], thermo_rows(output)[-1])
 
+    def test_gas_steps_that_follow_a_courant_number(self):
+        # Each as many particle steps as keep it; the count goes on where it was.
+        self.write("case.toml", self.read("case.toml") + "\n[numerics]\ncourant = 0.02\n")
+        gas = "f_gas[24] f_gas[15] f_gas[21] f_gas[14]"
+        begin, go_on = (script(65).replace("f_gas[24]", gas) for script in (self.begin, self.go_on))
+        whole = thermo_rows(self.run_script(begin + "run 300\n"))
+        *_, courant, gas_steps, gas_time, _, _, _ = whole[-1]
+        self.assertTrue(0.014 < courant < 0.0205, courant)
+        self.assertTrue(45 < gas_steps < 150, gas_steps)  # 31 would be all of ten
+        self.assertTrue(300e-5 <= gas_time < 310e-5, gas_time)
+        self.assertGreater(max(row[4] for row in whole), 0.014)
+        self.run_script(begin.replace("whole", "first") + "run 160\n")
+        output = self.run_script(go_on + "run 300 upto\n")
+        self.assertEqual(self.last("whole"), self.last("again"))
+        self.assertEqual(whole[-1], thermo_rows(output)[-1])
+        # One that is never reached changes nothing.
+        self.write("case.toml", self.read("case.toml").replace("0.02", "5"))
+        loose = thermo_rows(self.run_script(begin + "run 100\n"))[-1]
+        self.write("case.toml", self.read("case.toml").replace("courant = 5", ""))
+        self.assertEqual(loose, thermo_rows(self.run_script(begin + "run 100\n"))[-1])
+
     def test_a_signal_leaves_no_trace(self):
         # It waits for the next lists that the run builds anyway. The shell of the script signals the program.
         for ranks, gas in ((1, True), (2, False)):
