@@ -10,6 +10,7 @@
 
 #include <omp.h>
 
+#include "axis_order.hpp"
 #include "subset.hpp"
 
 namespace granflux::particle_subset {
@@ -19,6 +20,9 @@ namespace {
 /// Cells that a dilute system may have for one particle.
 constexpr double most_cells_per_particle = 4;
 
+/// Of a cell without particles.
+constexpr int above_all = std::numeric_limits<int>::max(), below_all = -1;
+
 /// Whole cells from the origin; not-a-number goes to the first.
 int whole(double cells) {
   return cells > 0 ? int(cells) : 0;
@@ -27,18 +31,23 @@ int whole(double cells) {
 } // namespace
 
 int CellGrid::cell_of(const Vec3& place) const {
-  int index[3];
+  int cell = 0;
   for (int d = 0; d < 3; ++d)
-    index[d] = 1 + std::min(whole((place[d] - origin_[d]) * inverse_size_[d]), cells_[d] - 3);
-  return (index[2] * cells_[1] + index[1]) * cells_[0] + index[0];
+    cell += stride_[d] *
+            (1 + std::min(whole((place[d] - origin_[d]) * inverse_size_[d]), cells_[d] - 3));
+  return cell;
 }
 
 std::array<CellGrid::Run, 9> CellGrid::around(const Vec3& place) const {
   std::array<Run, 9> runs;
-  const int* start = start_.data() + cell_of(place);
+  const int cell = cell_of(place);
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const int* middle = start + ((int(r / 3) - 1) * cells_[1] + int(r % 3) - 1) * cells_[0];
-    runs[r] = {middle[-1], middle[2]};
+    const int middle =
+        cell + (int(r / 3) - 1) * stride_of_layers_ + (int(r % 3) - 1) * stride_of_rows_;
+    const int* const start = start_.data() + middle;
+    const Numbers* const in = numbers_.data() + middle;
+    runs[r] = {start[-1], start[2], std::min({in[-1].least, in[0].least, in[1].least}),
+               std::max({in[-1].most, in[0].most, in[1].most})};
   }
   return runs;
 }
@@ -70,6 +79,10 @@ void CellGrid::choose_cells(const Particles& particles, double reach, int thread
     cells_[d] = used + 2;
     inverse_size_[d] = used / extent[d];
   }
+  const auto [within, rows, layers] = axis_order(extent, 0.5 * reach);
+  stride_[within] = 1;
+  stride_[rows] = stride_of_rows_ = cells_[within];
+  stride_[layers] = stride_of_layers_ = cells_[within] * cells_[rows];
 }
 
 void CellGrid::sort(const Particles& particles, double reach, int threads) {
@@ -82,6 +95,7 @@ void CellGrid::sort(const Particles& particles, double reach, int threads) {
   entry_.resize(std::size_t(particles.all));
   start_.resize(std::size_t(cells) + 1);
   filled_.resize(std::size_t(cells));
+  numbers_.resize(std::size_t(cells));
   std::vector<int> before(std::size_t(threads) + 1);
 
 #pragma omp parallel num_threads(threads)
@@ -122,6 +136,9 @@ void CellGrid::sort(const Particles& particles, double reach, int threads) {
     for (int c = my_cells.begin; c < my_cells.end; ++c) {
       const int begin = start_[std::size_t(c)], end = start_[std::size_t(c) + 1];
       std::sort(number_.begin() + begin, number_.begin() + end);
+      numbers_[std::size_t(c)] =
+          begin < end ? Numbers{number_[std::size_t(begin)], number_[std::size_t(end) - 1]}
+                      : Numbers{above_all, below_all};
       for (int k = begin; k < end; ++k) {
         const int p = number_[std::size_t(k)];
         const Vec3& x = particles.position[p];

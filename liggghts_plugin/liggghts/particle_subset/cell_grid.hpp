@@ -13,7 +13,9 @@ namespace granflux::particle_subset {
 
 /// Particles sorted into cells no smaller than the longest distance of a pair, so that the partners
 /// of a particle lie in its own cell and the 26 around it: nine runs of three cells that follow
-/// each other in memory. Within a cell by number. The same for every number of threads.
+/// each other in memory. Within a cell by number. Cells are counted along the shortest extent
+/// first, as SpatialOrder has it: of the runs around a particle some then hold lower numbers only.
+/// The same for every number of threads.
 class CellGrid {
 public:
   /// All particles and ghosts. `reach`: longest distance between the centres of a pair. Uses
@@ -25,9 +27,10 @@ public:
     double x, y, z, radius;
   };
 
-  /// The places begin ... end - 1 in sorted order.
+  /// The places begin ... end - 1 in sorted order, and the least and the largest number in them.
   struct Run {
     int begin, end;
+    int least, most;
   };
   /// The particles in the cells around a place within the grid.
   [[nodiscard]] std::array<Run, 9> around(const Vec3& place) const;
@@ -40,12 +43,19 @@ private:
   [[nodiscard]] int cell_of(const Vec3& place) const;
   void choose_cells(const Particles& particles, double reach, int threads);
 
+  struct Numbers {
+    int least, most;
+  };
+
   int cells_[3] = {1, 1, 1}; // with one empty layer around those in use
+  int stride_[3] = {1, 1, 1};
+  int stride_of_rows_ = 1, stride_of_layers_ = 1; // 1 within a row
   Vec3 origin_;
   double inverse_size_[3] = {0, 0, 0};
-  std::vector<int> cell_;   // of each particle
-  std::vector<int> start_;  // of each cell in the sorted order, and the end
-  std::vector<int> filled_; // particles of each cell not yet placed
+  std::vector<int> cell_;        // of each particle
+  std::vector<int> start_;       // of each cell in the sorted order, and the end
+  std::vector<int> filled_;      // particles of each cell not yet placed
+  std::vector<Numbers> numbers_; // in each cell
   std::vector<int> number_;
   std::vector<Entry> entry_;
 };

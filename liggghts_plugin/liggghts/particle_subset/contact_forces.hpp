@@ -24,78 +24,90 @@ public:
         heat_(heat), own_(contacts.own), batch_constants_(constants[0]) {}
 
   /// Along the lower rows, all of them.
-  void add_lower() {
-    add_rows(contacts_.lower, own_, [](int own, int partner) { return std::pair(partner, own); });
-  }
+  void add_lower() { add_rows<Side::lower>(contacts_.lower, own_); }
   /// Along the upper rows of some of the particles.
-  void add_upper(Range particles) {
-    add_rows(contacts_.upper, particles,
-             [](int own, int partner) { return std::pair(own, partner); });
-  }
+  void add_upper(Range particles) { add_rows<Side::upper>(contacts_.upper, particles); }
 
 private:
-  template <class Ordered> void add_rows(ContactRows& rows, Range particles, Ordered ordered) {
+  /// Which of a pair is the particle of the row: j of the lower rows, i of the upper.
+  enum class Side { lower, upper };
+
+  template <Side side> void add_rows(ContactRows& rows, Range particles) {
     int count = 0;
+    rows.for_each_run(particles.begin - own_.begin, particles.end - own_.begin,
+                      [&](int first, int end) {
+                        for (int e = first; e < end; e += stretch) {
+                          count = measure<side>(rows, e, std::min(e + stretch, end), count);
+                          if (count > ContactBatch::capacity - stretch) {
+                            finish<side>(rows, count);
+                            count = 0;
+                          }
+                        }
+                      });
+    finish<side>(rows, count);
+  }
+
+  /// Pairs that are measured in one go.
+  static constexpr int stretch = 16;
+
+  /// Puts those of the pairs first ... end - 1 that touch into the batch behind the `count` that it
+  /// holds, and returns how many it holds then. Pair after pair, not row after row: the machine
+  /// cannot foresee where rows end.
+  template <Side side> int measure(const ContactRows& rows, int first, int end, int count) {
     const int last = int(rows.partner.size()) - 1;
-    const int end_row = particles.end - own_.begin;
-    const int* const ends = rows.work_ends();
-    for (int row = particles.begin - own_.begin; row < end_row; ++row) {
-      const int end = ends[row];
-      for (int e = rows.row_begin(row); e < end; ++e) {
-        prefetch_place(rows.partner[std::size_t(std::min(e + ahead, last))]);
-        const int partner = rows.partner[std::size_t(e)];
-        const auto [i, j] = ordered(own_.begin + row, partner);
-        const Vec3 separation = p_.position[i] - p_.position[j];
-        const double squared = dot(separation, separation);
-        const double radii = p_.radius[i] + p_.radius[j];
-        batch_.i[count] = i;
-        batch_.j[count] = j;
-        batch_.entry[count] = e;
-        batch_.separation.set(count, separation);
-        batch_.distance_squared[count] = squared;
-        prefetch(rows, e, partner);
-        // Overwritten by the next pair unless this one touches.
-        count += squared < radii * radii;
-        if (count == ContactBatch::capacity) {
-          finish(rows, count);
-          count = 0;
-        }
-      }
+    const int *const own = rows.particle.data(), *const partner = rows.partner.data();
+    const double* const history = rows.history.data();
+    const Particles p = p_; // in registers: what is written might else change it
+    for (int e = first; e < end; ++e) {
+      prefetch_place(p, partner[std::min(e + ahead, last)]);
+      const int i = side == Side::upper ? own[e] : partner[e];
+      const int j = side == Side::upper ? partner[e] : own[e];
+      prefetch(p, partner[e]);
+      if constexpr (Law::history > 0)
+        __builtin_prefetch(history + std::ptrdiff_t(e) * Law::history, 1);
+      const Vec3 separation = p.position[i] - p.position[j];
+      const double squared = dot(separation, separation);
+      const double radii = p.radius[i] + p.radius[j];
+      batch_.i[count] = i;
+      batch_.j[count] = j;
+      batch_.entry[count] = e;
+      batch_.separation.set(count, separation);
+      batch_.distance_squared[count] = squared;
+      // Overwritten by the next pair unless this one touches.
+      count += squared < radii * radii;
     }
-    finish(rows, count);
+    return count;
   }
 
   /// Entries from the fetching of a partner's place to its use: the time of a line from memory.
   static constexpr int ahead = 16;
 
-  void prefetch_place(int partner) const {
-    __builtin_prefetch(p_.position + partner);
-    __builtin_prefetch(p_.radius + partner);
+  static void prefetch_place(const Particles& p, int partner) {
+    __builtin_prefetch(p.position + partner);
+    __builtin_prefetch(p.radius + partner);
   }
 
   /// What gather and scatter will want of a pair comes from far while other pairs are measured. Not
   /// what heat wants: its arrays are so dense that the machine fetches them ahead by itself, and
   /// fetching them here took a tenth of the loop.
-  void prefetch(const ContactRows& rows, int e, int p) const {
-    __builtin_prefetch(p_.velocity + p);
-    __builtin_prefetch(p_.mass + p);
-    __builtin_prefetch(p_.force + p, 1);
-    if constexpr (Law::history > 0)
-      __builtin_prefetch(&rows.history[std::size_t(e) * Law::history], 1);
+  static void prefetch(const Particles& p, int partner) {
+    __builtin_prefetch(p.velocity + partner);
+    __builtin_prefetch(p.mass + partner);
+    __builtin_prefetch(p.force + partner, 1);
     if constexpr (Law::turns) {
-      __builtin_prefetch(p_.spin + p);
-      __builtin_prefetch(p_.torque + p, 1);
+      __builtin_prefetch(p.spin + partner);
+      __builtin_prefetch(p.torque + partner, 1);
     }
   }
 
-  void finish(ContactRows& rows, int count) {
+  template <Side side> void finish(ContactRows& rows, int count) {
     if (count == 0)
       return;
     gather(rows, count);
     evaluate(batch_, count, batch_constants_, dt_, heat_);
     if constexpr (Heat::acts)
       heat_.evaluate(batch_, count, own_);
-    scatter(rows, count);
+    scatter<side>(rows, count);
   }
 
   void gather(const ContactRows& rows, int count) {
@@ -151,39 +163,26 @@ private:
     }
   }
 
-  void scatter(ContactRows& rows, int count) {
-    for (int k = 0; k < count;) {
-      const int i = batch_.i[k];
-      if (!own_.holds(i)) {
-        add_to_partner(k);
-        put_memory(rows, k);
-        ++k;
-        continue;
-      }
-      // Along a row the force on its particle stays in registers.
-      Vec3 force = p_.force[i], torque = p_.torque[i];
-      [[maybe_unused]] double rate = 0;
-      if constexpr (Heat::acts)
-        rate = heat_.rate(i);
-      for (; k < count && batch_.i[k] == i; ++k) {
-        force += batch_.force.at(k);
-        if constexpr (Law::turns)
-          torque += batch_.torque_i.at(k);
-        if constexpr (Heat::acts)
-          rate += heat_.rate_of_i(k);
-        if (own_.holds(batch_.j[k]))
-          add_to_partner(k);
-        put_memory(rows, k);
-      }
-      p_.force[i] = force;
-      if constexpr (Law::turns)
-        p_.torque[i] = torque;
-      if constexpr (Heat::acts)
-        heat_.rate(i) = rate;
+  template <Side side> void scatter(ContactRows& rows, int count) {
+    for (int k = 0; k < count; ++k) {
+      if constexpr (side == Side::upper)
+        add_to_i(k);
+      if (side == Side::lower || own_.holds(batch_.j[k]))
+        add_to_j(k);
+      put_memory(rows, k);
     }
   }
 
-  void add_to_partner(int k) {
+  void add_to_i(int k) {
+    const int i = batch_.i[k];
+    p_.force[i] += batch_.force.at(k);
+    if constexpr (Law::turns)
+      p_.torque[i] += batch_.torque_i.at(k);
+    if constexpr (Heat::acts)
+      heat_.rate(i) += heat_.rate_of_i(k);
+  }
+
+  void add_to_j(int k) {
     const int j = batch_.j[k];
     p_.force[j] -= batch_.force.at(k);
     if constexpr (Law::turns)

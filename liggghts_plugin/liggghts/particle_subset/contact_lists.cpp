@@ -125,7 +125,9 @@ ContactLists::Found ContactLists::find_partners(const Particles& particles, doub
   const int* const numbers = cells_.numbers();
   int* const list = found.data();
   int count = 0, here = 0;
-  for (const CellGrid::Run run : runs)
+  for (const CellGrid::Run run : runs) {
+    if (run.most < i && run.least >= own.begin)
+      continue; // they have found this one
     for (int k = run.begin; k < run.end; ++k) {
       const CellGrid::Entry other = entries[k];
       const int p = numbers[k];
@@ -136,6 +138,7 @@ ContactLists::Found ContactLists::find_partners(const Particles& particles, doub
       count += near & ((p > i) | (p < own.begin));
       here += apart == 0;
     }
+  }
   return {count, here};
 }
 
@@ -177,6 +180,7 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
   ContactRows& lower = contacts.lower;
   ContactRows& upper = contacts.upper;
   for (ContactRows* rows : {&lower, &upper}) {
+    rows->particle.clear();
     rows->partner.clear();
     rows->begin.assign(1, 0);
     rows->begin.reserve(std::size_t(own.size()) + 1);
@@ -192,8 +196,10 @@ void ContactLists::build_rows(const Particles& particles, double skin, const Exc
       if (!excluded || !excluded(std::min(i, *p), std::max(i, *p)))
         (*p > i ? upper : lower).partner.push_back(*p);
     std::sort(lower.partner.begin() + lower_begin, lower.partner.end());
-    lower.begin.push_back(int(lower.partner.size()));
-    upper.begin.push_back(int(upper.partner.size()));
+    for (ContactRows* rows : {&lower, &upper}) {
+      rows->begin.push_back(int(rows->partner.size()));
+      rows->particle.resize(rows->partner.size(), i);
+    }
     if (here > 1)
       find_coincident(particles, own, i - own.begin, contacts);
   }
@@ -305,8 +311,8 @@ double ContactLists::memory() const {
   std::size_t bytes = 0;
   for (const ThreadContacts& t : threads_)
     for (const ContactRows* rows : {&t.lower, &t.upper})
-      bytes += (rows->begin.capacity() + rows->work_end.capacity() + rows->partner.capacity() +
-                rows->flags.capacity()) *
+      bytes += (rows->begin.capacity() + rows->work_end.capacity() + rows->particle.capacity() +
+                rows->partner.capacity() + rows->flags.capacity()) *
                    sizeof(int) +
                rows->history.capacity() * sizeof(double);
   for (const Kept& kept : kept_)

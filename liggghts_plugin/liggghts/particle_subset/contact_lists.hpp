@@ -18,15 +18,20 @@ struct ContactRows {
   /// End of each row's pairs that are evaluated; pairs of two particles at rest come last. Empty:
   /// all are evaluated.
   std::vector<int> work_end;
+  std::vector<int> particle;   ///< whose row it is, pair by pair
   std::vector<int> partner;    ///< numbers of particles
   std::vector<int> flags;      ///< not 0 once a pair has touched
   std::vector<double> history; ///< history_size doubles a pair, seen from its lower number
 
   [[nodiscard]] int row_begin(int row) const { return begin[std::size_t(row)]; }
   [[nodiscard]] int row_end(int row) const { return begin[std::size_t(row) + 1]; }
-  /// The ends of what is evaluated, row by row.
-  [[nodiscard]] const int* work_ends() const {
-    return work_end.empty() ? begin.data() + 1 : work_end.data();
+  /// Calls visit(first, end) for the runs of pairs that are evaluated of the rows `first` to `end`.
+  template <class Visit> void for_each_run(int first, int end, Visit&& visit) const {
+    if (work_end.empty())
+      visit(row_begin(first), row_begin(end));
+    else
+      for (int row = first; row < end; ++row)
+        visit(row_begin(row), work_end[std::size_t(row)]);
   }
 };
 
@@ -103,7 +108,7 @@ private:
                   const PartnerHistory& kept, int at_rest, ThreadContacts& contacts) const;
   struct Found {
     int partners = 0;
-    int here = 0; ///< particles at the very place of this one, itself among them
+    int here = 0; ///< of those looked at, at the very place of this one, itself among them
   };
   Found find_partners(const Particles& particles, double skin, Range own, int i,
                       std::vector<int>& found) const;

@@ -13,6 +13,8 @@
 
 #include <liggghts/atom_vec.h>
 
+#include "axis_order.hpp"
+
 namespace granflux::particle_subset {
 
 namespace {
@@ -65,10 +67,7 @@ void SpatialOrder::sort(LAMMPS_NS::Atom& atom, double size) {
     return;
   const Extent extent = extent_of(atom);
 
-  // In steps of a half octave: beds as long as wide do not turn round each time.
-  const auto length = [&](int d) { return std::lround(2 * std::log2(extent.size[d] / size + 1)); };
-  std::array<int, 3> axes{0, 1, 2}; // the quickest to change first
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) < length(b); });
+  const std::array<int, 3> axes = axis_order(extent.size, size); // the quickest to change first
 
   constexpr double cells_a_particle = 16; // counting them takes less time than moving the particle
   const auto cells_along = [&](int d) { return std::floor(extent.size[d] / size) + 1; };

@@ -48,9 +48,10 @@ public:
   }
 
 private:
+  /// All in one: what a law makes that is not seen, as heat, is then not computed.
   template <class Seen>
-  void touch_all(const Particles& p, std::span<WallTouch> touches, int wall_type, double dt,
-                 Seen&& seen) const {
+  [[gnu::flatten]] void touch_all(const Particles& p, std::span<WallTouch> touches, int wall_type,
+                                  double dt, Seen&& seen) const {
     for (WallTouch& touch : touches) {
       const int i = touch.particle;
       const TouchedWall wall{.separation = touch.separation,
