@@ -19,8 +19,8 @@ void Weights::build(const AnyKernel& any_kernel, const AnyLocator& any_locator,
   };
   placing_ = std::visit(
       [&]<class Kernel, class Locator>(const Kernel& kernel, const Locator& locator) -> Placing {
-        if constexpr (has_corners<Kernel, Locator>)
-          return keep(std::type_identity<CornerShares>{})
+        if constexpr (has_cube<Kernel, Locator>)
+          return keep(std::type_identity<CubeShares<Kernel::width>>{})
               .build(kernel, locator, particles, placed_);
         else if constexpr (serves<Kernel, Locator>)
           return keep(std::type_identity<ShareLists>{}).build(kernel, locator, particles, placed_);

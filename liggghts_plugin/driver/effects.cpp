@@ -249,6 +249,15 @@ std::string effects_table(const SceneState& scene, EffectSet own, EffectSet avai
 EffectWatch::EffectWatch(EffectSet own, EffectSet available, EffectSet on)
     : own_(own), available_(available), on_(on) {}
 
+bool EffectWatch::due(long step) {
+  constexpr long longest = 1000;
+  if (step >= last_look_ && step < last_look_ + until_next_) // else it has come, or steps are reset
+    return false;
+  last_look_ = step;
+  until_next_ = std::min(4 * until_next_, longest);
+  return true;
+}
+
 void EffectWatch::begin(const SceneState& scene) {
   told_.clear();
   static_cast<void>(warnings(scene));

@@ -96,6 +96,9 @@ public:
   EffectWatch() = default;
   EffectWatch(EffectSet own, EffectSet available, EffectSet on);
 
+  /// Whether it is time to compute the numbers anew: after 1, 4, 16, ... steps, from there on every
+  /// 1000, for that takes 60 to 150 instructions a particle.
+  [[nodiscard]] bool due(long step);
   /// Those above their thresholds before the run are in the table: no news.
   void begin(const coupling::SceneState& scene);
   [[nodiscard]] std::string warnings(const coupling::SceneState& scene);
@@ -103,6 +106,7 @@ public:
 private:
   EffectSet own_, available_, on_;
   std::vector<std::string_view> told_;
+  long last_look_ = 0, until_next_ = 1; // steps
 };
 
 /// The particles of all ranks, as far as they decide. Collective.

@@ -131,8 +131,8 @@ void GasDriver::choose_effects(Host& host) {
   host.say(effects_table(scene, effects_of_gas, available_, effects_));
 }
 
-void GasDriver::warn_of_neglected(Host& host) {
-  if (!options_.effects.given())
+void GasDriver::warn_of_neglected(Host& host, long step) {
+  if (!options_.effects.given() || !watch_.due(step))
     return;
   if (const std::string text = watch_.warnings(scene_state(host)); !text.empty())
     host.say(text);
@@ -276,7 +276,7 @@ bool GasDriver::step(Host& host, long step, double dt) {
     if (!clock_.due())
       return false;
     clock_.advanced();
-    warn_of_neglected(host);
+    warn_of_neglected(host, step);
     return true;
   }
   if (dt != clock_.time_step())
@@ -314,7 +314,7 @@ void GasDriver::exchange(Host& host, long step) {
   if (step > steps_.first) // else after the table
     warn_of_limits(host);
   largest_.add(coupler_->report(), coupler_->gas().balance());
-  warn_of_neglected(host);
+  warn_of_neglected(host, step);
   write_fields();
 }
 

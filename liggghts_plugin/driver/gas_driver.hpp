@@ -90,7 +90,7 @@ private:
   void keep_effects(EffectSet on);
   [[nodiscard]] EffectSet effects_of_case() const;
   [[nodiscard]] coupling::SceneState scene_state(Host& host) const;
-  void warn_of_neglected(Host& host);
+  void warn_of_neglected(Host& host, long step);
   [[nodiscard]] std::string effects_report(const RunTimes& mean, double particle_steps) const;
   void begin(Host& host, double dt);
   void load_restored(coupling::Coupler& coupler) const;

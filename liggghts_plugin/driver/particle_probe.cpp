@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/core.h>
 
@@ -39,11 +40,12 @@ ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm c
   constexpr double far = std::numeric_limits<double>::max();
   long bad = 0;
   double speed2 = 0, rate2 = 0, least_radius = far, least_mass = far, largest_radius = 0;
+  double mass_per_cube = far; // of the radius
   const auto n = std::ptrdiff_t(view.size());
   const bool all_free = view.fixed.empty();
 #pragma omp parallel for schedule(static)                                                          \
     reduction(+ : bad) reduction(max : speed2, rate2, largest_radius)                              \
-    reduction(min : least_radius, least_mass)
+    reduction(min : least_radius, least_mass, mass_per_cube)
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const auto p = std::size_t(i);
     const double r = view.radius[p], m = view.mass[p], r2 = r * r;
@@ -51,18 +53,22 @@ ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm c
     const double f2 = squared(view.force[p]);
     // True for numbers only: those that are not fail every comparison.
     const bool moves = (std::abs(sum(view.position[p])) <= far) & (v2 <= far) & (v2 * path2 <= r2);
-    const bool held = (f2 * dt4 <= r2 * m * m) | ((f2 <= far) & (!all_free && view.fixed[p]));
+    const bool fixed = !all_free && view.fixed[p];
+    const bool held = (f2 * dt4 <= r2 * m * m) | ((f2 <= far) & fixed);
     bad += !(moves & held);
     speed2 = std::max(speed2, v2);
     if (v2 > rate2 * r2)
       rate2 = v2 / r2;
+    if (!fixed && m < mass_per_cube * (r2 * r))
+      mass_per_cube = m / (r2 * r);
     least_radius = std::min(least_radius, r);
     least_mass = std::min(least_mass, m);
     largest_radius = std::max(largest_radius, r);
   }
   for (const double t : view.temperature)
     bad += !(t >= 0 && t <= far);
-  std::array<double, 6> all{double(bad), speed2, rate2, -least_radius, -least_mass, largest_radius};
+  std::array<double, 7> all{double(bad), speed2,         rate2,         -least_radius,
+                            -least_mass, largest_radius, -mass_per_cube};
   MPI_Allreduce(MPI_IN_PLACE, all.data(), int(all.size()), MPI_DOUBLE, MPI_MAX, comm);
   const bool some = all[5] > 0;
   return {.good = all[0] == 0,
@@ -70,7 +76,8 @@ ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm c
           .speed_over_radius = std::sqrt(all[2]),
           .least_radius = some ? -all[3] : 0,
           .least_mass = some ? -all[4] : 0,
-          .largest_radius = all[5]};
+          .largest_radius = all[5],
+          .least_density = all[6] > -far ? -all[6] * 3 / (4 * std::numbers::pi) : 0};
 }
 
 std::string ParticleJudge::complaint(const coupling::ParticleView& view) const {

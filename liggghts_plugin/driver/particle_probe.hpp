@@ -16,6 +16,8 @@ struct ParticleProbe {
   double speed_over_radius = 0;            ///< largest [1/s]
   double least_radius = 0, least_mass = 0; ///< 0 without particles
   double largest_radius = 0;               ///< m
+  /// Of those that nothing holds [kg/m3]; 0 without any.
+  double least_density = 0;
 };
 
 /// Which particles are not to be believed: position, velocity, force or temperature not a number,

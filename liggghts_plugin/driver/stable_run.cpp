@@ -22,12 +22,13 @@ using cfd::Bound;
 // docs/reference/stable_range.md tells where these come from.
 constexpr double drag_limit = 1.5, drag_advised = 1;
 constexpr double explicit_limit = 2, explicit_advised = 1;
-constexpr double advised_cell = 3;                                                   // diameters
+constexpr double advised_cell = 3;                       // diameters
+constexpr double density_limit = 1, density_advised = 2; // of (1-eps) / (2 eps)
 constexpr double densest_packing = 1 - std::numbers::pi / (3 * std::numbers::sqrt2); // its voids
 
 /// Cell over diameter that a void-fraction kernel needs; 0: any does.
 double least_cell_of(const std::string& kernel) {
-  return kernel == "centre" ? 3 : kernel == "divided" ? 2 : kernel == "trilinear" ? 1 : 0;
+  return kernel == "centre" ? 3 : kernel == "divided" ? 2 : kernel == "smoothed" ? 0 : 1;
 }
 
 double least_cell_edge(const cfd::Mesh& mesh) {
@@ -90,6 +91,19 @@ StableRun::StableRun(const cfd::GasCase& gas_case, const coupling::CouplingOptio
                   .advised = std::max(densest_packing, options.void_fraction_floor),
                   .least = true,
                   .cure = [width](double) { return width + ", or larger [grid] cells"; }});
+  const coupling::ExchangeEffects& effects = options.effects;
+  const bool explicit_pressure =
+      options.model == coupling::MomentumModel::a && effects.pressure_gradient && effects.two_way;
+  density_ = range_.add({.name = "density ratio / ((1-eps) / (2 eps))",
+                         .limit = explicit_pressure ? density_limit : Bound::none,
+                         .advised = density_advised,
+                         .least = true,
+                         .cure = [explicit_pressure](double) {
+                           return explicit_pressure
+                                      ? "[coupling] model = \"b\", or heavier particles"
+                                      : "nothing needed: no explicit pressure force";
+                         }});
+  range_.forget(density_, "no particles yet");
   rows_.resize(range_.size());
   std::iota(rows_.begin(), rows_.end(), std::size_t(0));
 }
@@ -147,6 +161,7 @@ void StableRun::look(Host& host, const coupling::ParticleView& particles, double
     range_.set(cell_, least_cell_ / (2 * found.largest_radius));
   else
     range_.forget(cell_, "no particles yet");
+  least_density_ = found.least_density;
   range_.set(friction_, friction_rate_ * interval_);
   range_.set(courant_, std::max(courant_number_, courant_of_inlets()));
   if (!found.good)
@@ -166,6 +181,9 @@ void StableRun::follow(const coupling::ExchangeReport& report) {
   if (slip_)
     range_.set(*slip_, report.gas_drag_number_max + report.stiffness_max);
   range_.set(void_fraction_, report.void_fraction_min);
+  // Of the lightest free particle where they lie densest (docs/stability.md).
+  if (const double eps = report.void_fraction_min; least_density_ > 0 && eps < 1)
+    range_.set(density_, least_density_ / gas_case_.fluid.density * 2 * eps / (1 - eps));
   if (with_heat_)
     range_.set(heat_, report.heat_stiffness_max);
 }

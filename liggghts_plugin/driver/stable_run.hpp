@@ -47,7 +47,7 @@ private:
 
   cfd::StableRange range_;
   ParticleBounds particle_bounds_;
-  std::size_t courant_, friction_, drag_ = 0, cell_, void_fraction_, heat_ = 0;
+  std::size_t courant_, friction_, drag_ = 0, cell_, void_fraction_, heat_ = 0, density_;
   std::optional<std::size_t> slip_; // where drag is explicit in the gas
   bool drag_of_step_ = false;       // the particle step counts, not the coupling interval
   std::vector<std::size_t> rows_;   // all of them
@@ -60,6 +60,7 @@ private:
   double courant_number_ = 0;                         // of the last exchange
   // Of the last look.
   double least_radius_ = 0, least_mass_ = 0; // of the particles that times_ is of
+  double least_density_ = 0;                 // kg/m3
   double time_step_ = 0, interval_ = 0;      // s
 };
 

@@ -47,9 +47,6 @@ constexpr std::string_view with_single[] = {"gran/hooke", "gran/hooke/history",
 /// Its tangential force is one of the slip of the moment, and all of its work is lost.
 constexpr std::string_view without_memory = "gran/hooke";
 
-/// Between two looks at whether what is off has come to count.
-constexpr int steps_between_looks = 1000;
-
 constexpr int tangential_force = 0; // from here on in Pair::svector
 
 Vec3 row(double** array, int i) {
@@ -288,7 +285,7 @@ double FixHeat::friction_heat(const double* told, int i, int j, const Vec3& apar
 void FixHeat::post_force(int) {
   if (!steps_by_gas_ && !rests())
     step(nullptr);
-  if (words_.options.effects.given() && update->ntimestep % steps_between_looks == 0)
+  if (words_.options.effects.given() && watch_.due(long(update->ntimestep)))
     warn_of_neglected();
 }
 

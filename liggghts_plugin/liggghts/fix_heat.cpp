@@ -55,9 +55,6 @@ template <class Row> Row* rows(const LAMMPS_NS::FixPropertyAtom& property) {
   return property.array_atom ? reinterpret_cast<Row*>(property.array_atom[0]) : nullptr;
 }
 
-/// Between two looks at whether what is off has come to count.
-constexpr int steps_between_looks = 1000;
-
 constexpr int doubles(std::size_t bytes) {
   return int(bytes / sizeof(double));
 }
@@ -396,7 +393,7 @@ void FixHeat::conduct_by_shape() {
 void FixHeat::pre_final_integrate() {
   if (!steps_by_gas_ && !rests())
     step(nullptr);
-  if (options_.effects.given() && update->ntimestep % steps_between_looks == 0)
+  if (options_.effects.given() && watch_.due(long(update->ntimestep)))
     driver::guard(*this, *error, [&] { warn_of_neglected(); });
 }
 

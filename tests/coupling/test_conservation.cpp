@@ -127,6 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Conservation,
                          ::testing::Values(Scene{"centre", coupling::MomentumModel::a, false},
                                            Scene{"divided", coupling::MomentumModel::a, true},
                                            Scene{"trilinear", coupling::MomentumModel::b, true},
+                                           Scene{"spline", coupling::MomentumModel::a, true},
                                            Scene{"smoothed", coupling::MomentumModel::a, true},
                                            Scene{"smoothed", coupling::MomentumModel::b, false}),
                          [](const auto& scene) {

@@ -183,10 +183,12 @@ TEST(Drum, PackedBedObeysErgun) {
   EXPECT_NEAR(drop / (ergun * length), 1, 0.01);
 }
 
-TEST(Drum, TrilinearSharesNeedABox) {
-  coupling::CouplingOptions options;
-  options.void_fraction = "trilinear";
-  EXPECT_THROW(coupling::Coupler(drum_case(true), options, MPI_COMM_WORLD), ConfigError);
+TEST(Drum, SharesAlongLinesOfCellsNeedABox) {
+  for (const char* kernel : {"trilinear", "spline"}) {
+    coupling::CouplingOptions options;
+    options.void_fraction = kernel;
+    EXPECT_THROW(coupling::Coupler(drum_case(true), options, MPI_COMM_WORLD), ConfigError);
+  }
 }
 
 } // namespace

@@ -88,7 +88,7 @@ TEST_P(RankEquality, SumsAgreeWithOneRankAlone) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Kernels, RankEquality,
-                         ::testing::Values("centre", "divided", "trilinear", "smoothed"),
+                         ::testing::Values("centre", "divided", "trilinear", "spline", "smoothed"),
                          [](const auto& kernel) { return std::string(kernel.param); });
 
 } // namespace

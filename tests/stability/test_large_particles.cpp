@@ -85,7 +85,7 @@ TEST(LargeParticles, SmoothedKeepsVolumeAndGasFromAThirdToThreeTimesACell) {
 
 TEST(LargeParticles, OthersKeepTheVolumeOrNameTheCellAndTheCure) {
   int stopped = 0;
-  for (const char* kernel : {"centre", "divided", "trilinear"})
+  for (const char* kernel : {"centre", "divided", "trilinear", "spline"})
     for (const double ratio : {0.3, 1., 2., 3.})
       for (const Vec3& x : places) {
         const Outcome outcome = flow_around({ball(x, ratio * cell)}, kernel);
@@ -111,7 +111,7 @@ TEST(LargeParticles, TwoCentresInOneCell) {
   const Outcome naive = flow_around(two, "centre"); // 1 - 2 pi / 6 is below 0
   ASSERT_FALSE(naive.report);
   EXPECT_NE(naive.error.find("void fraction -0.047"), std::string::npos) << naive.error;
-  for (const char* kernel : {"trilinear", "smoothed"}) {
+  for (const char* kernel : {"trilinear", "spline", "smoothed"}) {
     const Outcome outcome = flow_around(two, kernel);
     ASSERT_TRUE(outcome.report) << kernel << ": " << outcome.error;
     EXPECT_LT(outcome.report->volume_residual, 1e-12);
@@ -124,7 +124,7 @@ TEST(LargeParticles, AThousandfoldInSizeAndABillionInVolume) {
   for (int p = 0; p < 200; ++p)
     all.push_back(ball({(0.3 + p % 7) * cell, (0.6 + p % 5) * cell, (0.2 + p % 6) * cell},
                        1.5e-3 * cell, p + 2));
-  for (const char* kernel : {"divided", "trilinear", "smoothed"}) {
+  for (const char* kernel : {"divided", "trilinear", "spline", "smoothed"}) {
     const Outcome outcome = flow_around(all, kernel);
     ASSERT_TRUE(outcome.report) << kernel << ": " << outcome.error;
     EXPECT_EQ(outcome.report->particles, 201);
@@ -141,7 +141,7 @@ TEST(LargeParticles, OnCornersOfBlocksEachIsFoundOnce) {
     all.push_back(ball({corner % 3 * 4 * cell, corner / 3 % 3 * 4 * cell,
                         std::clamp(corner / 9 * 4 * cell, 0., 8 * cell)},
                        0.5 * cell, corner + 1));
-  for (const char* kernel : {"centre", "divided", "trilinear", "smoothed"}) {
+  for (const char* kernel : {"centre", "divided", "trilinear", "spline", "smoothed"}) {
     const Outcome outcome = flow_around(all, kernel, {2, 2, 2});
     ASSERT_TRUE(outcome.report) << kernel << ": " << outcome.error;
     EXPECT_EQ(outcome.report->particles, 27) << kernel;

@@ -144,7 +144,7 @@ TEST(PackedPowder, SoItIsWhereContactsHoldTheParticles) {
 
 // Simple cubic packing of spheres that touch, 0.4764, and the void fraction of the closest one.
 TEST(PackedPowder, ClosePackingIsErgunsToo) {
-  for (const char* kernel : {"centre", "divided", "trilinear", "smoothed"})
+  for (const char* kernel : {"centre", "divided", "trilinear", "spline", "smoothed"})
     for (const double void_fraction : {0.4764, 0.2595}) {
       const Outcome outcome = blow({.void_fraction = void_fraction, .kernel = kernel});
       EXPECT_NEAR(outcome.drop, 1, 1e-9) << kernel << ' ' << void_fraction;

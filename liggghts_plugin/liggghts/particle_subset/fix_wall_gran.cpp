@@ -8,7 +8,10 @@
 #include <span>
 #include <string>
 
+#include <fmt/core.h>
+
 #include <liggghts/atom.h>
+#include <liggghts/error.h>
 
 #include <liggghts/fix_contact_history_mesh.h>
 #include <liggghts/fix_mesh_surface.h>
@@ -18,6 +21,7 @@
 #include <liggghts/granular_wall.h>
 #include <liggghts/multi_vector_container.h>
 #include <liggghts/neighbor.h>
+#include <liggghts/pair_gran.h>
 #include <liggghts/primitive_wall.h>
 #include <liggghts/properties.h>
 #include <liggghts/tri_mesh.h>
@@ -140,9 +144,55 @@ void FixWallGran::init() {
 }
 
 void FixWallGran::setup(int vflag) {
+  decide();
+  if (!reason_for_stock_ && meshwall_ != 1)
+    refuse_centred_on_primitive();
   LAMMPS_NS::FixWallGran::setup(vflag);
   if (modify->n_fixes_style("granflux/heat") > 0)
     heattransfer_flag_ = false; // it is not LIGGGHTS' own law that conducts
+  decide();
+}
+
+/// Words are compared once a run.
+void FixWallGran::decide() {
+  reason_for_stock_ = reason_for_stock();
+  kernel_suits_ = kernel_suits();
+  const auto* pair = dynamic_cast<const LAMMPS_NS::PairGran*>(force->pair_match("gran", 0));
+  frozen_group_ = pair && !heat_ ? pair->freeze_group_bit() : 0;
+}
+
+/// Whether a contact has no direction. What is frozen bears any force.
+bool FixWallGran::is_centred(int particle, double gap, const double* to_wall) const {
+  return gap == -radius_[particle] && to_wall[0] == 0 && to_wall[1] == 0 && to_wall[2] == 0 &&
+         !(atom->mask[particle] & frozen_group_);
+}
+
+/// In a setup it is LIGGGHTS' own loop that meets primitives.
+void FixWallGran::refuse_centred_on_primitive() {
+  radius_ = atom->radius;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double to_wall[3] = {1, 1, 1};
+    if ((atom->mask[i] & groupbit) &&
+        is_centred(i, primitiveWall_->resolveContact(atom->x[i], radius_[i], to_wall), to_wall))
+      centred_ = i;
+  }
+  refuse_centred(nullptr);
+}
+
+/// Stops the run, this rank before the others, where a particle has its centre on the wall. Seldom
+/// enough not to ask all ranks in every step.
+void FixWallGran::refuse_centred(const Mesh* mesh) {
+  if (centred_ < 0)
+    return;
+  const Vec3& x = rows(atom->x)[centred_];
+  error->one(FLERR, fmt::format(
+                        "particle {} at ({:.10g}, {:.10g}, {:.10g}) m has its centre exactly on {} "
+                        "of fix {} wall/gran: their contact has no direction; move or delete it",
+                        atom->tag[centred_], x.x, x.y, x.z,
+                        mesh ? fmt::format("mesh {}", FixMesh_list_[mesh->number]->id)
+                             : std::string("the wall"),
+                        id)
+                        .c_str());
 }
 
 /// False: contacts are evaluated by LIGGGHTS' own law.
@@ -200,11 +250,11 @@ bool FixWallGran::all_of_one_type() const {
 }
 
 bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
-  if (const char* reason = reason_for_stock()) {
-    say_once(*lmp, std::string("fix wall/gran is LIGGGHTS' own for ") + reason);
+  if (reason_for_stock_) {
+    say_once(*lmp, std::string("fix wall/gran is LIGGGHTS' own for ") + reason_for_stock_);
     return false;
   }
-  by_kernel_ = kernel_suits();
+  by_kernel_ = kernel_suits_;
   if (!by_kernel_ && !all_of_one_type())
     return false;
   computeflag_ = shearupdate_ = 1; // a step, not its setup
@@ -308,6 +358,10 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
     std::fill_n(history, dnum(), 0.0);
     return;
   }
+  if (is_centred(particle, gap, to_wall)) {
+    centred_ = particle;
+    return;
+  }
   double velocity[3] = {wall_velocity[0], wall_velocity[1], wall_velocity[2]};
   if (shear_ && shearAxis_ >= 0) { // a turning cylinder
     double radial[3];
@@ -366,6 +420,7 @@ void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
 }
 
 void FixWallGran::sum_on_mesh(Mesh& mesh) {
+  refuse_centred(&mesh);
   for (ForceOnMesh& on : mesh.forces) // in LIGGGHTS' order: its sums, to the last bit
     if (on.acts)
       FixMesh_list_[mesh.number]->add_particle_contribution(on.particle, on.force, on.to_wall,
@@ -373,14 +428,16 @@ void FixWallGran::sum_on_mesh(Mesh& mesh) {
 }
 
 void FixWallGran::end_own_work() {
+  if (meshwall_ != 1)
+    refuse_centred(nullptr);
   for (Mesh& mesh : meshes_)
     sum_on_mesh(mesh);
 }
 
 /// Where meshes are of different types, and in the setup of a run: one after the other.
 void FixWallGran::post_force_mesh(int vflag) {
-  by_kernel_ = makes_heat_ = false;     // in a setup histories stay as they are
-  if (addflag_ || reason_for_stock()) { // addflag: asked by a compute, contact by contact
+  by_kernel_ = makes_heat_ = false;    // in a setup histories stay as they are
+  if (addflag_ || reason_for_stock_) { // addflag: asked by a compute, contact by contact
     LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
     return;
   }
@@ -401,6 +458,10 @@ void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, Force
       particle, triangle, radius_[particle], x_[particle], to_wall, weight, place, true);
   if (gap > 0)
     return;
+  if (is_centred(particle, gap, to_wall)) {
+    centred_ = particle;
+    return;
+  }
   double* history = nullptr;
   if (mesh.history && !mesh.history->handleContact(particle, mesh.triangles->id(triangle), history,
                                                    true, place == face))

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,10 +66,14 @@ private:
     std::vector<ForceOnMesh> forces; // of each pair, where a module of the mesh sums them
   };
 
-  [[nodiscard]] const char* reason_for_stock() const;
   class Batch;
 
+  [[nodiscard]] const char* reason_for_stock() const;
   [[nodiscard]] bool kernel_suits() const;
+  void decide();
+  [[nodiscard]] bool is_centred(int particle, double gap, const double* to_wall) const;
+  void refuse_centred_on_primitive();
+  void refuse_centred(const Mesh* mesh);
   [[nodiscard]] bool all_of_one_type() const;
   [[nodiscard]] HeatOfWall heat_of_wall(LAMMPS_NS::TriMesh* triangles) const;
   void touch_primitive(Range block);
@@ -80,11 +85,15 @@ private:
   void touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle, ForceOnMesh* on_mesh);
 
   GranWords words_;
-  std::unique_ptr<WallKernel> kernel_; // null: there is none for these laws
-  bool by_kernel_ = false;             // in this step
-  HeatPort* heat_ = nullptr;           // null: none
-  bool makes_heat_ = false;            // in this step
-  HeatOfWall primitive_heat_;          // of this step
+  std::unique_ptr<WallKernel> kernel_;     // null: there is none for these laws
+  const char* reason_for_stock_ = nullptr; // of this run; null: threads may share the work
+  bool kernel_suits_ = false;              // of this run
+  bool by_kernel_ = false;                 // in this step
+  int frozen_group_ = 0;                   // whose forces move nothing
+  std::atomic<int> centred_ = -1;          // a particle that has its centre on the wall
+  HeatPort* heat_ = nullptr;               // null: none
+  bool makes_heat_ = false;                // in this step
+  HeatOfWall primitive_heat_;              // of this step
   Particles particles_;
   std::vector<Mesh> meshes_;
 };

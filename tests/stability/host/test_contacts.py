@@ -41,6 +41,35 @@ class Contacts(HardCase):
         frozen = script.replace("run 10", "group held id 1 9\nfix held held freeze\nrun 10")
         self.assertNotIn("nan", self.run_contacts(frozen, spheres, low, high))
 
+    def test_a_centre_on_a_wall_is_refused_by_name(self):
+        """The stock program goes on with numbers of no value, or without the particle."""
+        spheres = lattice((2, 2, 2), 1e-3, 1e-3, DENSITY)
+        spheres[2] = (1e-3, DENSITY, (0.5e-3, 1.5e-3, 0.0), (0, 0, 0))
+        low, high = (0, 0, -1e-3), (2e-3, 2e-3, 2e-3)
+        corners = ((0, 0), (2e-3, 0), (0, 2e-3)), ((2e-3, 2e-3), (2e-3, 0), (0, 2e-3))
+        faces = "".join(
+            "facet normal 0 0 1\nouter loop\n" + "".join(f"vertex {x} {y} 0\n" for x, y in triangle) + "endloop\nendfacet\n"
+            for triangle in corners
+        )
+        self.write("floor.stl", f"solid floor\n{faces}endsolid floor\n")
+        mesh = "fix floor all mesh/surface file floor.stl type 1\n"
+        mesh += "fix wall0 all wall/gran model hooke/stiffness tangential history mesh n_meshes 1 meshes floor absolute_damping on\n"
+        begin = head(1e-6, boundary="p p f", kn=500, gn=1e-3)
+        end = THERMO.format(lost="ignore", every=10) + "run 10\n"
+        for what, floor in (("the wall", walls(["zplane 0.0"])), ("mesh floor", mesh)):
+            for ranks, threads in ((1, 1), (1, 2), (2, 1)):
+                with self.subTest(what=what, ranks=ranks, threads=threads):
+                    code, output = self.start_scene(
+                        begin + floor + end, spheres, low, high, ranks=ranks, options=("-threads", str(threads))
+                    )
+                    self.assertNotIn(code, (0, 124), output)
+                    self.assertIn(
+                        f"particle 3 at (0.0005, 0.0015, 0) m has its centre exactly on {what} of fix wall0", output
+                    )
+                    self.assertNotIn("nan", output)
+            frozen = begin + floor + end.replace("run 10", "group held id 3\nfix held held freeze\nrun 10")
+            self.assertNotIn("nan", self.run_contacts(frozen, spheres, low, high))
+
     def test_thousandfold_sizes(self):
         """2000 spheres of 20 um rain on one of 20 mm: every one of them bounces off it."""
         radius, small = 10e-3, 10e-6

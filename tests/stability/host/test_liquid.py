@@ -66,6 +66,24 @@ class Suspension(HardCase):
                 speeds = [row[5] for row in self.spheres_now().values()]
                 self.assertLessEqual(max(speeds) - min(speeds), 1e-9 * abs(expected))
 
+    def test_too_light_for_model_a_is_told_before_the_run(self):
+        """The limit is (1 - eps)/(2 eps) = 1/3 here."""
+        spacing = self.DIAMETER * (math.pi / 6 / 0.4) ** (1 / 3)
+        side = self.NUMBER * spacing
+        warning = "WARNING: density ratio / ((1-eps) / (2 eps)) is {}, its least 1: [coupling] model = \"b\""
+        for ratio, model, number in ((0.3, "a", "0.9"), (0.5, "a", None), (0.3, "b", None)):
+            with self.subTest(ratio=ratio, model=model):
+                case = box((side,) * 3, (4, 4, 4), WATER, {}, f'[coupling]\nmodel = "{model}"\n')
+                spheres = lattice((self.NUMBER,) * 3, spacing, self.DIAMETER, ratio * WATER["density"])
+                script = head(1e-4, kn=100, gn=1e-3, skin=2e-4) + couple(5) + thermo(1) + "run 0\n"
+                code, output = self.start_scene(script, spheres, (0, 0, 0), (side,) * 3, case)
+                self.assertEqual(code, 0, output)
+                if number:
+                    self.assertIn(warning.format(number), output)
+                else:
+                    self.assertNotIn("WARNING: density ratio", output)
+                    self.assertIn("density ratio / ((1-eps) / (2 eps))", output)
+
     def slip(self, density, void):
         """beta s / (1 - eps) = (rho_p - rho) g eps with Ergun's beta [m/s]."""
         d, mu, rho = self.DIAMETER, WATER["viscosity"], WATER["density"]

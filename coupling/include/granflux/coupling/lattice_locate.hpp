@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <granflux/cfd/mesh.hpp>
+#include <granflux/coupling/cell_row.hpp>
 #include <granflux/coupling/grid_extent.hpp>
 
 namespace granflux::coupling {
@@ -28,16 +29,18 @@ public:
   /// direction that is not periodic to the last cell. Nothing if x is outside or not a number.
   /// Along a periodic direction the index goes on below 0 and past the last cell.
   [[nodiscard]] std::optional<int> cell(double x) const;
-  /// The cells below and above x whose centres it lies between, along a periodic direction
-  /// unwrapped, and the share of the upper one in x. Between a wall and the first centre the share
-  /// of the cell beyond the wall is 0; along a direction of one cell without a period that is the
-  /// upper one.
-  struct Between {
-    int lower = 0;
-    double upper_share = 0;
-  };
-  /// Nothing where cell(x) is nothing.
-  [[nodiscard]] std::optional<Between> between(double x) const;
+  /// Shares of x in n cells, by B-splines of degree n - 1; along a periodic direction the cells are
+  /// unwrapped. Nothing where cell(x) is nothing.
+  ///
+  /// n = 2: in the cells below and above x whose centres it lies between, linear. Between a wall
+  /// and the first centre the share of the cell beyond the wall is 0; along a direction of one cell
+  /// without a period that is the upper one.
+  ///
+  /// n = 3: in the cell of x and its two neighbours, by quadratic B-splines with the nodes as
+  /// knots, whose Greville points are the cell centres. What a cell beyond a wall would get goes to
+  /// the cell before it. Without a period the cells are inside the grid as far as it has three;
+  /// beyond, shares are 0.
+  template <int n> [[nodiscard]] std::optional<CellRow<n>> row(double x) const;
   /// Unwrapped index to 0 <= i < cells; the identity where the direction is not periodic.
   [[nodiscard]] int wrap(int i) const;
   /// Centre of a cell [m]; along a periodic direction of any unwrapped one.
@@ -47,7 +50,12 @@ public:
 
 private:
   [[nodiscard]] int within(double x) const; ///< for x inside the box
-  [[nodiscard]] Between inner(int lower, double upper_share) const;
+  [[nodiscard]] std::optional<CellRow<2>> linear_row(double x) const;
+  [[nodiscard]] std::optional<CellRow<3>> quadratic_row(double x) const;
+  [[nodiscard]] CellRow<2> inner(int lower, double upper_share) const;
+  [[nodiscard]] CellRow<3> inner(int middle, double below, double above) const;
+  [[nodiscard]] double node(int i) const;
+  [[nodiscard]] double width(int i) const;
 
   std::vector<double> nodes_, centres_;
   int cells_ = 0;
@@ -110,17 +118,17 @@ inline std::optional<int> LatticeAxis::cell(double x) const {
   return within(x - periods * length()) + cells_ * int(periods);
 }
 
-inline LatticeAxis::Between LatticeAxis::inner(int lower, double upper_share) const {
+inline CellRow<2> LatticeAxis::inner(int lower, double upper_share) const {
   if (!periodic_) {
     if (lower < 0)
-      return {0, 0};
+      return {0, {0}};
     if (lower + 1 >= cells_)
-      return cells_ > 1 ? Between{cells_ - 2, 1} : Between{0, 0};
+      return cells_ > 1 ? CellRow<2>{cells_ - 2, {1}} : CellRow<2>{0, {0}};
   }
-  return {lower, upper_share};
+  return {lower, {upper_share}};
 }
 
-inline std::optional<LatticeAxis::Between> LatticeAxis::between(double x) const {
+inline std::optional<CellRow<2>> LatticeAxis::linear_row(double x) const {
   if (equal_ && nodes_.front() <= x && x <= nodes_.back()) {
     const double place = (x - nodes_.front()) * per_length_ - 0.5, lower = std::floor(place);
     return inner(int(lower), place - lower);
@@ -132,7 +140,43 @@ inline std::optional<LatticeAxis::Between> LatticeAxis::between(double x) const 
   if (!periodic_ && (lower < 0 || lower + 1 >= cells_))
     return inner(lower, 0);
   const double below = centre(lower), above = centre(lower + 1);
-  return Between{lower, (x - below) / (above - below)};
+  return CellRow<2>{lower, {(x - below) / (above - below)}};
+}
+
+inline CellRow<3> LatticeAxis::inner(int middle, double below, double above) const {
+  if (!periodic_) {
+    if (cells_ == 1)
+      return {0, {1, 0}};
+    if (middle == 0)
+      return {0, {1 - above, 0}};
+    if (middle == cells_ - 1)
+      return cells_ > 2 ? CellRow<3>{cells_ - 3, {0, 1 - below}} : CellRow<3>{0, {below, 0}};
+  }
+  return {middle - 1, {below, above}};
+}
+
+inline std::optional<CellRow<3>> LatticeAxis::quadratic_row(double x) const {
+  if (equal_ && nodes_.front() <= x && x <= nodes_.back()) {
+    const double place = (x - nodes_.front()) * per_length_;
+    const int middle = std::min(int(place), cells_ - 1);
+    const double above = place - middle, below = 1 - above;
+    return inner(middle, 0.5 * below * below, 0.5 * above * above);
+  }
+  const std::optional<int> in = cell(x);
+  if (!in)
+    return std::nullopt;
+  const double h = width(*in), above = (x - node(*in)) / h, below = 1 - above;
+  const bool walled_below = !periodic_ && *in == 0, walled_above = !periodic_ && *in == cells_ - 1;
+  return inner(*in, walled_below ? 0 : below * below * h / (h + width(*in - 1)),
+               walled_above ? 0 : above * above * h / (h + width(*in + 1)));
+}
+
+template <int n> std::optional<CellRow<n>> LatticeAxis::row(double x) const {
+  static_assert(n == 2 || n == 3);
+  if constexpr (n == 2)
+    return linear_row(x);
+  else
+    return quadratic_row(x);
 }
 
 inline int LatticeAxis::wrap(int i) const {
@@ -147,6 +191,16 @@ inline double LatticeAxis::centre(int i) const {
     return centres_[std::size_t(i)];
   const int wrapped = wrap(i);
   return centres_[std::size_t(wrapped)] + (i - wrapped) / cells_ * length();
+}
+
+inline double LatticeAxis::node(int i) const {
+  const int wrapped = wrap(i);
+  return nodes_[std::size_t(wrapped)] + (i - wrapped) / cells_ * length();
+}
+
+inline double LatticeAxis::width(int i) const {
+  const auto wrapped = std::size_t(wrap(i));
+  return nodes_[wrapped + 1] - nodes_[wrapped];
 }
 
 inline double LatticeAxis::fold(double x) const {

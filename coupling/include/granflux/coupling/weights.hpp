@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include <granflux/coupling/corner_shares.hpp>
+#include <granflux/coupling/cube_shares.hpp>
 #include <granflux/coupling/share_lists.hpp>
 
 namespace granflux::coupling {
@@ -49,7 +49,7 @@ public:
 private:
   Placing placing_{.placed = 0, .outside = 0, .window = {}};
   std::vector<std::uint8_t> placed_;
-  std::variant<ShareLists, CornerShares> shares_;
+  std::variant<ShareLists, CubeShares<2>, CubeShares<3>> shares_;
 };
 
 } // namespace granflux::coupling

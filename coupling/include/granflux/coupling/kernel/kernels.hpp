@@ -5,6 +5,7 @@
 #include <granflux/coupling/kernel/centre.hpp>
 #include <granflux/coupling/kernel/divided.hpp>
 #include <granflux/coupling/kernel/smoothed.hpp>
+#include <granflux/coupling/kernel/spline.hpp>
 #include <granflux/coupling/kernel/trilinear.hpp>
 #include <granflux/coupling/law_list.hpp>
 
@@ -13,7 +14,7 @@ namespace granflux::coupling {
 template <VoidFractionKernel... Kernels> using KernelList = LawList<Kernels...>;
 
 /// All kernels a case may name; a new one is one file and one word here.
-using VoidFractionKernels = KernelList<Centre, Divided, Trilinear, Smoothed>;
+using VoidFractionKernels = KernelList<Centre, Divided, Trilinear, Spline, Smoothed>;
 using AnyKernel = VoidFractionKernels::Any;
 
 /// Whether a kernel serves what this locator finds cells in.
@@ -32,10 +33,10 @@ inline constexpr bool tells_room = requires(const Kernel kernel, const Locator& 
     } -> std::same_as<double>;
 };
 
-/// Whether its shares are given by the corners of one cube of cells.
+/// Whether its shares are products in one cube of cells.
 template <class Kernel, class Locator>
-inline constexpr bool has_corners = requires(const Kernel kernel, const Locator& locator) {
-  kernel.corners(locator, Vec3{});
+inline constexpr bool has_cube = requires(const Kernel kernel, const Locator& locator) {
+  kernel.cube(locator, Vec3{});
 };
 
 } // namespace granflux::coupling

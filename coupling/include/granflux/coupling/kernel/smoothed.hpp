@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <granflux/coupling/kernel/trilinear.hpp>
+#include <granflux/coupling/kernel/spline_kernel.hpp>
 
 namespace granflux::coupling {
 
 /// Trilinear deposit (on grids fitted to bodies: into the cell of the centre), then conservative
 /// diffusion of the gas fields over a length set in particle diameters (Smoothing): the void
 /// fraction no longer depends on the cell size, and cells may be smaller than particles.
-struct Smoothed : Trilinear {
+struct Smoothed : SplineKernel<2> {
   static constexpr std::string_view name = "smoothed";
   static constexpr bool smooths = true;
 
-  using Trilinear::operator();
+  using SplineKernel<2>::operator();
   template <class Emit>
   double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
     emit(particle.cell, 1.0);
