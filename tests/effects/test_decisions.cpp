@@ -12,10 +12,11 @@
 
 #include "driver/effects.hpp"
 
+#include "scenes.hpp"
+
 using namespace granflux;
 using namespace granflux::driver;
-using coupling::GasOfScene;
-using coupling::HeatOfScene;
+using namespace granflux::testing;
 using coupling::SceneState;
 
 namespace {
@@ -24,67 +25,6 @@ constexpr EffectSet all_available{Effect::gas,        Effect::drag,       Effect
                                   Effect::two_way,    Effect::convection, Effect::buoyancy,
                                   Effect::conduction, Effect::gas_gap,    Effect::radiation,
                                   Effect::friction,   Effect::damping};
-
-/// Particles of 0.1 mm at 1000 K in air of 300 K that carries one of them to a litre.
-SceneState hot_dilute() {
-  SceneState s;
-  s.particles = {.count = 1e4,
-                 .diameter = 1e-4,
-                 .density = 2500,
-                 .speed = 1,
-                 .solid_fraction = 1e-7,
-                 .height = 0.5};
-  s.gas = GasOfScene{.density = 1.2,
-                     .viscosity = 1.8e-5,
-                     .speed = 5,
-                     .length = 1,
-                     .slip = 1,
-                     .conductivity = 0.026,
-                     .heat_capacity = 1006,
-                     .expansion = 1. / 300};
-  s.heat = HeatOfScene{.heat_capacity = 840, .conductivity = 1, .young = 7e10, .poisson = 0.2};
-  s.gravity = 9.81;
-  s.meets(300);
-  s.meets(1000);
-  return s;
-}
-
-/// The paper's small bed, fluidised by air, all of one temperature.
-SceneState cold_bed() {
-  SceneState s;
-  s.particles = {.count = 9240,
-                 .diameter = 1.2e-3,
-                 .density = 1000,
-                 .speed = 0.1,
-                 .solid_fraction = 0.6,
-                 .height = 0.03};
-  s.gas = GasOfScene{.density = 1.2,
-                     .viscosity = 1.8e-5,
-                     .speed = 0.9,
-                     .length = 0.12,
-                     .conductivity = 0.026,
-                     .heat_capacity = 1006};
-  s.heat = HeatOfScene{.heat_capacity = 800, .conductivity = 1, .young = 7e10, .poisson = 0.2};
-  s.gravity = 9.81;
-  s.meets(300);
-  return s;
-}
-
-/// The paper's kiln section: alumina of 2 mm, a wall of 373 K, air at rest.
-SceneState kiln() {
-  SceneState s;
-  s.particles = {.count = 20000,
-                 .diameter = 2e-3,
-                 .density = 3900,
-                 .speed = 0.05,
-                 .solid_fraction = 0.6,
-                 .height = 0.076};
-  s.heat = HeatOfScene{.heat_capacity = 875, .conductivity = 36, .young = 193.05e9, .poisson = 0.3};
-  s.gravity = 9.81;
-  s.meets(298);
-  s.meets(373);
-  return s;
-}
 
 TEST(Decisions, HotDiluteFlow) {
   const EffectSet on = decide(hot_dilute(), all_available);
@@ -114,7 +54,8 @@ TEST(Decisions, KilnWithoutGas) {
 TEST(Decisions, GasOfAKilnIsNotSolvedForItsDrag) {
   SceneState s = kiln();
   s.heat.reset();
-  s.gas = GasOfScene{.density = 1.2, .viscosity = 1.8e-5, .wall_speed = 0.16, .length = 0.1524};
+  s.gas = coupling::GasOfScene{
+      .density = 1.2, .viscosity = 1.8e-5, .wall_speed = 0.16, .length = 0.1524};
   EXPECT_FALSE(decide(s, all_available).any());
   // Where its heat counts it is, and the bed holds it up.
   SceneState warm = kiln();
@@ -198,6 +139,17 @@ TEST(Watch, TellsOnceWhatCrosses) {
   EXPECT_NE(text.find("WARNING: the effect friction, which is off, now counts"), std::string::npos)
       << text;
   EXPECT_EQ(watch.warnings(s), "");
+}
+
+TEST(Watch, LooksEverMoreSeldom) {
+  EffectWatch watch;
+  std::vector<long> looks;
+  for (long step = 1; step <= 4000; ++step)
+    if (watch.due(step))
+      looks.push_back(step);
+  EXPECT_EQ(looks, (std::vector<long>{1, 5, 21, 85, 341, 1341, 2341, 3341}));
+  EXPECT_TRUE(watch.due(10)); // steps are counted anew
+  EXPECT_FALSE(watch.due(11));
 }
 
 TEST(Table, NamesEveryEffect) {

@@ -10,39 +10,14 @@
 
 #include <granflux/coupling/effects/numbers.hpp>
 
+#include "scenes.hpp"
+
 using namespace granflux::coupling;
+using namespace granflux::testing;
 
 namespace {
 
 constexpr double exact = 1e-12;
-
-/// 0.1 mm glass in air at 1 m/s, far from each other.
-SceneState dust() {
-  SceneState s;
-  s.particles = {.count = 1000,
-                 .diameter = 1e-4,
-                 .density = 2500,
-                 .speed = 0,
-                 .solid_fraction = 0,
-                 .height = 0.1};
-  s.gas = GasOfScene{.density = 1.2, .viscosity = 1.8e-5, .speed = 1, .length = 0.5};
-  s.gravity = 9.81;
-  return s;
-}
-
-/// The same warm, without gravity.
-SceneState warm_dust() {
-  SceneState s = dust();
-  s.gravity = 0;
-  s.gas->conductivity = 0.025;
-  s.gas->heat_capacity = 1000;
-  s.gas->expansion = 1. / 300;
-  s.heat = HeatOfScene{.heat_capacity = 800, .conductivity = 1, .young = 7e10, .poisson = 0.2};
-  s.heat->emissivity = 0.8;
-  s.meets(300);
-  s.meets(400);
-  return s;
-}
 
 double schiller_naumann(double re) {
   return 1 + 0.15 * std::pow(re, 0.687);

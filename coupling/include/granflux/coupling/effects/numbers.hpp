@@ -43,6 +43,24 @@ inline constexpr double force_threshold = 0.01;
 /// Heat: temperatures that are one for a whole particle are exact to 5 % at a Biot number of 0.1.
 inline constexpr double heat_threshold = 0.05;
 
+// What the numbers that decide on an effect are of: where it counts, and the error without it.
+
+/// A force, or what particles take out of the gas, over the rest.
+struct ForceRatio {
+  static constexpr double threshold = force_threshold;
+  static constexpr double error(double n) { return error_of_ratio(n); }
+};
+/// Heat made over heat carried.
+struct HeatRatio {
+  static constexpr double threshold = heat_threshold;
+  static constexpr double error(double n) { return error_of_ratio(n); }
+};
+/// One way for heat, of all.
+struct ShareOfHeat {
+  static constexpr double threshold = heat_threshold;
+  static constexpr double error(double n) { return n; }
+};
+
 // Numbers that describe a scene.
 
 struct ParticleReynolds {
@@ -129,12 +147,10 @@ struct RadiationNumber {
 // Numbers that decide.
 
 /// Drag over weight; without gravity over inertia, which is one over the Stokes number.
-struct DragOverWeight {
+struct DragOverWeight : ForceRatio {
   static constexpr std::string_view name = "drag / weight",
                                     formula = "b |u-v| / (m (g + |u-v|^2/L))",
                                     source = "1 % of the force";
-  static constexpr double threshold = force_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     if (!s.gas)
       return 0;
@@ -145,12 +161,10 @@ struct DragOverWeight {
 };
 
 /// Both phases bear the pressure gradient, that of the drag too: (1-eps)/eps of it.
-struct PressureForce {
+struct PressureForce : ForceRatio {
   static constexpr std::string_view name = "pressure force / weight",
                                     formula = "rho/rho_p + drag/weight (1-eps)/eps",
                                     source = "Maxey, Riley (1983); 1 %";
-  static constexpr double threshold = force_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     if (!s.gas)
       return 0;
@@ -160,24 +174,20 @@ struct PressureForce {
 };
 
 /// Momentum that particles take out of the gas over what it has.
-struct MomentumCoupling {
+struct MomentumCoupling : ForceRatio {
   static constexpr std::string_view name = "momentum coupling",
                                     formula = "mass loading / (1 + Stokes)",
                                     source = "Crowe, Sommerfeld, Tsuji (1998); 1 %";
-  static constexpr double threshold = force_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     return MassLoading{}(s) / (1 + StokesNumber{}(s));
   }
 };
 
 /// Heat that particles take out of the gas over what it has.
-struct HeatCoupling {
+struct HeatCoupling : ForceRatio {
   static constexpr std::string_view name = "heat coupling",
                                     formula = "mass loading c_p/c / (1 + m c_p |u-v| / (h A L))",
                                     source = "Crowe, Sommerfeld, Tsuji (1998); 1 %";
-  static constexpr double threshold = force_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     if (!s.heat || !s.gas || !(s.gas->heat_capacity > 0))
       return 0;
@@ -209,40 +219,32 @@ struct Richardson {
   return s.span() > 0 ? ratio(conductance, conductance_of(s)) : 0;
 }
 
-struct ConvectionShare {
+struct ConvectionShare : ShareOfHeat {
   static constexpr std::string_view name = "convection / heat", formula = "h A / sum of H",
                                     source = "5 %, as Bi < 0.1: Incropera et al. (2007)";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return n; }
   double operator()(const SceneState& s) const {
     return share_of_heat(s, convection_conductance_of(s));
   }
 };
 
-struct ConductionShare {
+struct ConductionShare : ShareOfHeat {
   static constexpr std::string_view name = "contacts / heat", formula = "2 k_p r_c Z / sum of H",
                                     source = "Batchelor, O'Brien (1977); 5 %";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return n; }
   double operator()(const SceneState& s) const {
     return share_of_heat(s, contact_conductance_of(s));
   }
 };
 
-struct GasGapShare {
+struct GasGapShare : ShareOfHeat {
   static constexpr std::string_view name = "gas in gaps / heat", formula = "H_gap Z / sum of H",
                                     source = "Rong, Horio (1999); 5 %";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return n; }
   double operator()(const SceneState& s) const { return share_of_heat(s, gap_conductance_of(s)); }
 };
 
-struct RadiationShare {
+struct RadiationShare : ShareOfHeat {
   static constexpr std::string_view name = "radiation / heat",
                                     formula = "4 e sigma T^3 A / sum of H",
                                     source = "VDI Heat Atlas (2010), D6.3; 5 %";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return n; }
   double operator()(const SceneState& s) const {
     return share_of_heat(s, radiation_conductance_of(s));
   }
@@ -260,19 +262,15 @@ struct RadiationShare {
              : s.particles.speed * s.particles.speed / (2 * s.heat->heat_capacity * span);
 }
 
-struct FrictionOverHeat {
+struct FrictionOverHeat : HeatRatio {
   static constexpr std::string_view name = "friction / heat", formula = "mu F v / (sum of H dT)",
                                     source = "5 %; differences from 1 K on";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const { return made_over_driven(s, friction_power_of(s)); }
 };
 
-struct DampingOverHeat {
+struct DampingOverHeat : HeatRatio {
   static constexpr std::string_view name = "damping / heat", formula = "m v^2/2 f / (sum of H dT)",
                                     source = "5 %; differences from 1 K on";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const { return made_over_driven(s, damping_power_of(s)); }
 };
 
@@ -292,23 +290,19 @@ struct Biot {
   }
 };
 
-struct AddedMass {
+struct AddedMass : ForceRatio {
   static constexpr std::string_view name = "added mass", formula = "rho / (2 rho_p)",
                                     source = "Maxey, Riley (1983); 1 %";
-  static constexpr double threshold = force_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     return s.gas ? s.gas->density / (2 * s.particles.density) : 0;
   }
 };
 
 /// Saffman's lift in the shear U/L, over the weight as DragOverWeight.
-struct Lift {
+struct Lift : ForceRatio {
   static constexpr std::string_view name = "lift / weight",
                                     formula = "1.615 (rho d^2 U/(L mu))^(1/2)/(3 pi) drag/weight",
                                     source = "Saffman (1965); 1 %";
-  static constexpr double threshold = force_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     if (!s.gas)
       return 0;
@@ -319,11 +313,9 @@ struct Lift {
 };
 
 /// Brinkman number, Eckert times Prandtl, with differences of temperature from 1 K on.
-struct ViscousHeating {
+struct ViscousHeating : HeatRatio {
   static constexpr std::string_view name = "Brinkman", formula = "mu U^2 / (k dT)",
                                     source = "Bird, Stewart, Lightfoot (2002); 5 %";
-  static constexpr double threshold = heat_threshold;
-  static constexpr double error(double n) { return error_of_ratio(n); }
   double operator()(const SceneState& s) const {
     if (!s.gas || !(s.gas->conductivity > 0))
       return 0;
