@@ -76,6 +76,7 @@ FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, 
                                     group->names[igroup]));
     options_ = driver::read_heat_options({arg + 3, std::size_t(narg - 3)});
     available_ = options_.available();
+    of_words_ = options_;
     for (const std::string& name : options_.fixed_groups)
       if (group->find(name.c_str()) < 0)
         throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
@@ -262,21 +263,21 @@ coupling::SceneState FixHeat::scene() {
 }
 
 void FixHeat::describe(coupling::SceneState& scene) {
-  const HeatMaterials found = read_heat_materials(*lmp, options_);
+  const HeatMaterials found = read_heat_materials(*lmp, of_words_);
   coupling::HeatOfScene heat{.heat_capacity = found.capacity.front(),
                              .conductivity = found.materials.front().conductivity};
-  if (options_.contacts.radius &&
-      std::visit([](const auto& r) { return r.needs_force; }, *options_.contacts.radius)) {
+  if (const auto& radius = of_words_.contacts.radius;
+      radius && std::visit([](const auto& r) { return r.needs_force; }, *radius)) {
     heat.young = found.materials.front().young;
     heat.poisson = found.materials.front().poisson;
   }
-  driver::add_near_heat(heat, options_.near, found.emissivity);
+  driver::add_near_heat(heat, of_words_.near, found.emissivity);
   for (int i = 0; i < modify->nfix; ++i)
     if (const auto* wall = dynamic_cast<const particle_subset::FixWallGran*>(modify->fix[i]))
       for (const double temperature : wall->temperatures())
         scene.meets(temperature);
-  if (options_.near.surroundings)
-    scene.meets(*options_.near.surroundings);
+  if (of_words_.near.surroundings)
+    scene.meets(*of_words_.near.surroundings);
   driver::add_temperatures(scene, {temperature_->vector_atom, std::size_t(atom->nlocal)}, world);
   scene.heat = heat;
 }

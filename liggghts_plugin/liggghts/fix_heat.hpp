@@ -100,8 +100,9 @@ private:
   [[nodiscard]] int held_bits() const;
 
   driver::HeatOptions options_;
-  driver::EffectSet available_; // of the words
-  bool chosen_ = false;         // effects are, and the table is printed
+  driver::HeatOptions of_words_; // before effects were left out: what the numbers are made of
+  driver::EffectSet available_;  // of the words
+  bool chosen_ = false;          // effects are, and the table is printed
   driver::EffectWatch watch_;
   double near_seconds_ = 0, step_seconds_ = 0, particle_steps_ = 0; // of this rank and run
   HeatMaterials materials_;
