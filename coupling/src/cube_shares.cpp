@@ -7,48 +7,167 @@
 
 namespace granflux::coupling {
 
-template <int n>
-Placing CubeShares<n>::build(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
-                             const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
-  const std::size_t count = particles.size();
-  of_particle_.resize(count);
-  std::vector<Placing> of_thread(static_cast<std::size_t>(omp_get_max_threads()));
-  // Along a direction of fewer than n cells the last of them stands for those beyond, whose shares
-  // are 0.
+namespace {
+
+/// Cells of a cube that there are along each direction: along one of fewer than n cells the last of
+/// them stands for those beyond, whose shares are 0.
+cfd::Index3 widths(const LatticeLocator& lattice, int n) {
   cfd::Index3 many;
   for (int d = 0; d < 3; ++d)
     many[std::size_t(d)] = lattice.axis(d).periodic() ? n : std::min(n, lattice.axis(d).cells());
+  return many;
+}
+
+bool within(const Window& window, const LatticeLocator& lattice) {
+  for (int d = 0; d < 3; ++d)
+    if (const auto i = std::size_t(d);
+        !lattice.axis(d).periodic() && (window.lo[i] < 0 || window.hi[i] > lattice.axis(d).cells()))
+      return false;
+  return true;
+}
+
+cfd::Index3 sum(const cfd::Index3& a, const cfd::Index3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+/// Calls body(begin, end, placing) with the run of particles of each thread.
+template <class Body> Placing over_runs(std::size_t count, Body&& body) {
+  std::vector<Placing> of_thread(static_cast<std::size_t>(omp_get_max_threads()));
 #pragma omp parallel
   {
     const int t = omp_get_thread_num(), threads = omp_get_num_threads();
     Placing mine;
-    const std::size_t end = run_begin(count, t + 1, threads);
-    for (std::size_t p = run_begin(count, t, threads); p < end; ++p) {
-      placed[p] = 0;
-      if (!particles.takes_part(p))
-        continue;
-      const auto cube = kernel.cube(lattice, lattice.fold(particles.position[p]));
-      if (!cube) {
-        ++mine.outside;
-        continue;
-      }
-      placed[p] = 1;
-      ++mine.placed;
-      of_particle_[p] = *cube;
-      const cfd::Index3& low = cube->lowest;
-      mine.include(low, {low[0] + many[0], low[1] + many[1], low[2] + many[2]});
-    }
+    body(run_begin(count, t, threads), run_begin(count, t + 1, threads), mine);
     of_thread[std::size_t(t)] = mine;
   }
   Placing all;
   for (const Placing& mine : of_thread)
     all += mine;
-  if (all.placed == 0)
-    all.window = {};
-  window_ = all.window;
-  all_placed_ = all.placed == count;
+  return all;
+}
 
-  const cfd::Index3 extent = window_.extent();
+} // namespace
+
+/// Tight around the cells of all particles.
+template <int n>
+Window CubeShares<n>::find_window(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
+                                  const ParticlesToPlace& particles) {
+  const cfd::Index3 many = widths(lattice, n);
+  const auto look = [&](std::size_t begin, std::size_t end, Placing& mine) {
+    for (std::size_t p = begin; p < end; ++p)
+      if (particles.takes_part(p))
+        if (const auto cube = kernel.cube(lattice, lattice.fold(particles.position[p]))) {
+          ++mine.placed;
+          mine.include(cube->lowest, sum(cube->lowest, many));
+        }
+  };
+  const Placing all = over_runs(particles.size(), look);
+  return all.placed > 0 ? all.window : Window{};
+}
+
+/// False where it has left the cells that may be the lowest of a cube in the window.
+template <int n>
+bool CubeShares<n>::place(std::size_t p, const CellCube<n>& cube, const Window& lowest) {
+  lowest_[p] = std::uint32_t(window_.index(cube.lowest));
+  others_[p] = cube.others;
+  return lowest.contains(cube.lowest);
+}
+
+/// Places a block of particles, all of which take part, by arithmetic on vector registers. False
+/// where that does not do, and where a particle has left the window.
+template <int n>
+bool CubeShares<n>::place_block(const LatticeLocator& lattice, const Vec3* position,
+                                std::size_t first, std::size_t count, const Window& lowest) {
+  if constexpr (n != 2)
+    return false;
+  else {
+    std::array<std::array<int, block>, 3> lower;
+    std::array<std::array<double, block>, 3> upper;
+    const auto* x = reinterpret_cast<const double*>(position + first);
+    for (std::size_t d = 0; d < 3; ++d)
+      if (!lattice.axis(int(d)).linear_rows(x + d, count, lower[d].data(), upper[d].data()))
+        return false;
+    const auto [nx, ny, nz] = window_.extent();
+    const auto [bx, by, bz] = window_.lo;
+    const auto [lx, ly, lz] = lowest.extent();
+    int left = 0;
+#pragma omp simd reduction(| : left)
+    for (std::size_t i = 0; i < count; ++i) {
+      const int ix = lower[0][i] - bx, iy = lower[1][i] - by, iz = lower[2][i] - bz;
+      left |=
+          int(ix < 0) | int(iy < 0) | int(iz < 0) | int(ix >= lx) | int(iy >= ly) | int(iz >= lz);
+      lowest_[first + i] = std::uint32_t(ix + nx * (iy + ny * iz));
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      others_[first + i] = {{{upper[0][i]}, {upper[1][i]}, {upper[2][i]}}};
+    return !left;
+  }
+}
+
+/// Nothing where a particle has left the window.
+template <int n>
+std::optional<Placing>
+CubeShares<n>::place_all(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
+                         const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
+  const auto nowhere = std::uint32_t(window_.size());
+  const cfd::Index3 many = widths(lattice, n);
+  const Window lowest{
+      window_.lo,
+      {window_.hi[0] - many[0] + 1, window_.hi[1] - many[1] + 1, window_.hi[2] - many[2] + 1}};
+  bool left = false;
+  Placing all = over_runs(particles.size(), [&](std::size_t begin, std::size_t end, Placing& mine) {
+    bool one_left = false;
+    for (std::size_t first = begin, last; first < end; first = last) {
+      last = std::min(first + block, end);
+      if (particles.coupled.empty() &&
+          place_block(lattice, particles.position.data(), first, last - first, lowest)) {
+        std::fill(placed.begin() + std::ptrdiff_t(first), placed.begin() + std::ptrdiff_t(last), 1);
+        mine.placed += last - first;
+        continue;
+      }
+      for (std::size_t p = first; p < last; ++p) {
+        placed[p] = 0;
+        lowest_[p] = nowhere;
+        if (!particles.takes_part(p))
+          continue;
+        if (const auto cube = kernel.cube(lattice, lattice.fold(particles.position[p]))) {
+          placed[p] = 1;
+          ++mine.placed;
+          one_left |= !place(p, *cube, lowest);
+        } else {
+          ++mine.outside;
+        }
+      }
+    }
+    if (one_left)
+#pragma omp atomic write
+      left = true;
+  });
+  if (left)
+    return std::nullopt;
+  all.window = window_;
+  return all;
+}
+
+template <int n>
+Placing CubeShares<n>::build(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
+                             const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
+  constexpr int keep_window =
+      64; // builds, before it is looked at anew: particles may have drawn together
+  lowest_.resize(particles.size());
+  others_.resize(particles.size());
+  std::optional<Placing> all;
+  if (builds_left_ > 0 && within(window_, lattice)) {
+    --builds_left_;
+    all = place_all(kernel, lattice, particles, placed);
+  }
+  if (!all || all->placed == 0) {
+    window_ = find_window(kernel, lattice, particles);
+    builds_left_ = keep_window;
+    all = place_all(kernel, lattice, particles, placed);
+  }
+
+  const cfd::Index3 many = widths(lattice, n), extent = window_.extent();
   std::size_t next = 0;
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
@@ -57,24 +176,8 @@ Placing CubeShares<n>::build(const SplineKernel<n>& kernel, const LatticeLocator
                           std::size_t(extent[0]) *
                               (std::size_t(std::min(j, many[1] - 1)) +
                                std::size_t(extent[1]) * std::size_t(std::min(k, many[2] - 1)));
-
-  particle_.resize(all.placed);
-  lowest_.resize(all.placed);
-  others_.resize(all.placed);
-  by_cell_.sort(
-      window_.size(),
-      [&](int t, int threads, auto&& visit) {
-        const std::size_t end = run_begin(count, t + 1, threads);
-        for (std::size_t p = run_begin(count, t, threads); p < end; ++p)
-          if (placed[p])
-            visit(window_.index(of_particle_[p].lowest), p);
-      },
-      [&](std::size_t p, std::size_t cell, std::size_t place) {
-        particle_[place] = std::uint32_t(p);
-        lowest_[place] = std::uint32_t(cell);
-        others_[place] = of_particle_[p].others;
-      });
-  return all;
+  by_cell_.renew(window_.size(), lowest_);
+  return *all;
 }
 
 template class CubeShares<2>;

@@ -235,6 +235,63 @@ TEST(Weights, BuildAnew) {
   EXPECT_EQ(deposit(weights, few.value), deposit(fresh, few.value));
 }
 
+// Field values by cell: two builds may have windows of different widths.
+void expect_same_deposit(const Weights& kept, const Weights& fresh, const Values& value) {
+  const Window &wide = kept.window(), &tight = fresh.window();
+  const Values all = deposit(kept, value), found = deposit(fresh, value);
+  double rest = 0;
+  for (int k = wide.lo[2]; k < wide.hi[2]; ++k)
+    for (int j = wide.lo[1]; j < wide.hi[1]; ++j)
+      for (int i = wide.lo[0]; i < wide.hi[0]; ++i) {
+        const double field = all[wide.index({i, j, k})];
+        if (tight.contains({i, j, k}))
+          ASSERT_EQ(field, found[tight.index({i, j, k})]);
+        else
+          rest += std::abs(field);
+      }
+  EXPECT_EQ(rest, 0);
+}
+
+// Particles by cell are kept from build to build and mended: the order of the sums, and so every
+// bit, is that of a sort. Few move, then many, some leave the grid and come back.
+TEST(Weights, KeptOrderIsThatOfASort) {
+  const int before = omp_get_max_threads();
+  for_each_case([](const AnyKernel& kernel, const cfd::Lattice& lattice) {
+    auto cloud = random_cloud(lattice, 2000);
+    std::mt19937 random(4);
+    Weights kept;
+    for (int build = 0; build < 100; ++build) {
+      omp_set_num_threads(1 + build % 3);
+      const double share = build % 10 == 9 ? 0.5 : build % 10 == 8 ? 0 : 0.01;
+      for (Vec3& x : cloud.position)
+        if (std::uniform_real_distribution()(random) < share)
+          x = build % 10 == 6 ? Vec3{1e3, 1e3, 1e3} : sample_point(lattice, random);
+      kept.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+      Weights fresh;
+      fresh.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+      EXPECT_EQ(kept.placed_count(), fresh.placed_count());
+      EXPECT_EQ(kept.outside_count(), fresh.outside_count());
+      ASSERT_NO_FATAL_FAILURE(expect_same_deposit(kept, fresh, cloud.value)) << build;
+    }
+  });
+  omp_set_num_threads(before);
+}
+
+// A window that has become too wide for its particles narrows after a while.
+TEST(Weights, WindowNarrows) {
+  const auto lattice = sample_lattice({false, false, false});
+  auto cloud = random_cloud(lattice, 100);
+  Weights kept, fresh;
+  kept.build(Trilinear{}, LatticeLocator(lattice), cloud.position, cloud.radius);
+  std::fill(cloud.position.begin(), cloud.position.end(), cloud.position[0]);
+  for (int build = 0; build < 100; ++build)
+    kept.build(Trilinear{}, LatticeLocator(lattice), cloud.position, cloud.radius);
+  fresh.build(Trilinear{}, LatticeLocator(lattice), cloud.position, cloud.radius);
+  EXPECT_EQ(kept.window().lo, fresh.window().lo);
+  EXPECT_EQ(kept.window().hi, fresh.window().hi);
+  EXPECT_EQ(deposit(kept, cloud.value), deposit(fresh, cloud.value));
+}
+
 cfd::Mesh drum(int radial) {
   cfd::CylinderGrid cylinder;
   cylinder.radius = 0.5, cylinder.length = 0.8;

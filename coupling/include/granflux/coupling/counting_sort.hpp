@@ -21,6 +21,7 @@ public:
   /// First place of a bin; that of bin + 1 is its end.
   [[nodiscard]] std::size_t begin(std::size_t bin) const { return begin_[bin]; }
   [[nodiscard]] std::size_t end(std::size_t bin) const { return begin_[bin + 1]; }
+  [[nodiscard]] const std::vector<std::size_t>& begins() const { return begin_; }
 
 private:
   std::vector<std::size_t> begin_{0};

@@ -5,20 +5,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
 
-#include <granflux/coupling/counting_sort.hpp>
+#include <granflux/coupling/cell_order.hpp>
 #include <granflux/coupling/kernel/spline_kernel.hpp>
 #include <granflux/coupling/placing.hpp>
 
 namespace granflux::coupling {
 
 /// Shares of particles in the n x n x n cells around them, as SplineKernel has them: of each
-/// particle only the lowest of its cells and n - 1 shares along x, y, z are kept, in the order of
-/// the cells; the products are made where they are needed. 32 bytes a particle for n = 2, 56 for
-/// n = 3, where lists of cells and shares take 200 and 650.
+/// particle only the lowest of its cells and n - 1 shares along x, y, z are kept; the products are
+/// made where they are needed. With the order of the particles by cell that is 40 bytes a particle
+/// for n = 2 and 64 for n = 3, where lists of cells and shares take 200 and 650.
 template <int n> class CubeShares {
 public:
   /// `placed`[p] is set to whether p is coupled and inside the grid.
@@ -32,6 +33,7 @@ public:
 private:
   /// Particles of one cell lie apart in memory: what is known to be needed soon is fetched ahead.
   static constexpr std::size_t ahead = 24;
+  static constexpr std::size_t block = 128; ///< particles whose cells are found together
   static constexpr std::size_t cells = n * n * n;
   using Others = std::array<typename CellRow<n>::Others, 3>;
   using Shares = std::array<double, cells>;
@@ -51,14 +53,22 @@ private:
   template <std::size_t numbers>
   void deposit_row(std::size_t begin, std::size_t end, const double* value, double* field) const;
 
+  static Window find_window(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
+                            const ParticlesToPlace& particles);
+  bool place(std::size_t p, const CellCube<n>& cube, const Window& lowest);
+  bool place_block(const LatticeLocator& lattice, const Vec3* position, std::size_t first,
+                   std::size_t count, const Window& lowest);
+  std::optional<Placing> place_all(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
+                                   const ParticlesToPlace& particles,
+                                   std::span<std::uint8_t> placed);
+
   Window window_;
+  int builds_left_ = 0;                     ///< for which window_ may be kept
   std::array<std::size_t, cells> offset_{}; ///< from the lowest cell, in the order of products()
-  CountingSort by_cell_;                    ///< particles by their lowest cell
-  // In that order:
-  std::vector<std::uint32_t> particle_, lowest_;
+  // By particle:
+  std::vector<std::uint32_t> lowest_; ///< window_.size() where it is not placed
   std::vector<Others> others_;
-  bool all_placed_ = true;
-  std::vector<CellCube<n>> of_particle_; ///< kept, so that it is allocated once
+  CellOrder by_cell_; ///< by their lowest cells
 };
 
 // The cells of a particle belong to n rows of cells along x on each of n levels: rows n apart, and
@@ -93,16 +103,19 @@ template <int n>
 template <std::size_t numbers>
 void CubeShares<n>::deposit_row(std::size_t begin, std::size_t end, const double* value,
                                 double* field) const {
+  const std::span<const std::uint32_t> particles = by_cell_.particles();
   for (std::size_t cell = begin; cell < end; ++cell) {
     const std::size_t first = by_cell_.begin(cell), last = by_cell_.end(cell);
     if (first == last)
       continue;
     double sum[numbers][cells] = {};
     for (std::size_t s = first; s < last; ++s) {
-      if (s + ahead < particle_.size())
-        __builtin_prefetch(value + numbers * particle_[s + ahead]);
-      const Shares share = products(others_[s]);
-      const double* const q = value + numbers * particle_[s];
+      if (s + ahead < particles.size()) {
+        __builtin_prefetch(&others_[particles[s + ahead]]);
+        __builtin_prefetch(value + numbers * particles[s + ahead]);
+      }
+      const Shares share = products(others_[particles[s]]);
+      const double* const q = value + numbers * particles[s];
       for (std::size_t v = 0; v < numbers; ++v)
         for (std::size_t c = 0; c < cells; ++c)
           sum[v][c] += share[c] * q[v];
@@ -120,22 +133,21 @@ void CubeShares<n>::sample(std::span<const T> field, std::span<T> value) const {
   constexpr std::size_t numbers = sizeof(T) / sizeof(double);
   const auto* from = reinterpret_cast<const double*>(field.data());
   auto* to = reinterpret_cast<double*>(value.data());
-  if (!all_placed_)
-    std::fill(value.begin(), value.end(), T{});
+  const std::size_t nowhere = window_.size();
 #pragma omp parallel for schedule(static)
-  for (std::size_t s = 0; s < particle_.size(); ++s) {
-    if (s + ahead < particle_.size())
-      __builtin_prefetch(to + numbers * particle_[s + ahead], 1);
-    const Shares share = products(others_[s]);
+  for (std::size_t p = 0; p < lowest_.size(); ++p) {
     std::array<double, numbers> sum{};
+    if (lowest_[p] != nowhere) {
+      const Shares share = products(others_[p]);
 #pragma GCC unroll 27
-    for (std::size_t c = 0; c < cells; ++c) {
-      const double* const q = from + numbers * (lowest_[s] + offset_[c]);
-      for (std::size_t v = 0; v < numbers; ++v)
-        sum[v] += share[c] * q[v];
+      for (std::size_t c = 0; c < cells; ++c) {
+        const double* const q = from + numbers * (lowest_[p] + offset_[c]);
+        for (std::size_t v = 0; v < numbers; ++v)
+          sum[v] += share[c] * q[v];
+      }
     }
     for (std::size_t v = 0; v < numbers; ++v)
-      to[numbers * particle_[s] + v] = sum[v];
+      to[numbers * p + v] = sum[v];
   }
 }
 

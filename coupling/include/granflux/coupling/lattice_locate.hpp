@@ -41,6 +41,10 @@ public:
   /// the cell before it. Without a period the cells are inside the grid as far as it has three;
   /// beyond, shares are 0.
   template <int n> [[nodiscard]] std::optional<CellRow<n>> row(double x) const;
+  /// row<2> of `count` points, their coordinates 3 numbers apart, on vector registers. False where
+  /// that does not do: cells of several lengths, or a point outside the box.
+  [[nodiscard]] bool linear_rows(const double* x, std::size_t count, int* lower,
+                                 double* upper) const;
   /// Unwrapped index to 0 <= i < cells; the identity where the direction is not periodic.
   [[nodiscard]] int wrap(int i) const;
   /// Centre of a cell [m]; along a periodic direction of any unwrapped one.
@@ -51,6 +55,8 @@ public:
 private:
   [[nodiscard]] int within(double x) const; ///< for x inside the box
   [[nodiscard]] std::optional<CellRow<2>> linear_row(double x) const;
+  [[nodiscard]] CellRow<2> linear_row_inside(double x) const;           ///< the box, by arithmetic
+  [[nodiscard]] std::optional<CellRow<2>> searched_row(double x) const; ///< linear, on any nodes
   [[nodiscard]] std::optional<CellRow<3>> quadratic_row(double x) const;
   [[nodiscard]] CellRow<2> inner(int lower, double upper_share) const;
   [[nodiscard]] CellRow<3> inner(int middle, double below, double above) const;
@@ -63,6 +69,27 @@ private:
   bool uniform_ = false;  ///< nearly, so that a cell is found by arithmetic and a look at its nodes
   bool equal_ = false;    ///< to rounding: nodes need no look
   double per_length_ = 0; ///< cells per metre where uniform
+
+  /// linear_row() inside the box by arithmetic alone, and without branches: next to walls, in thin
+  /// beds everywhere, they would be foretold wrongly as often as not.
+  struct Pairs {
+    double first = 0, last = 0; ///< nodes [m]
+    double per_length = 0;
+    double least = 0, most = 0; ///< lower cells, as numbers
+    [[nodiscard]] CellRow<2> row(double x) const {
+      const double place = (x - first) * per_length - 0.5;
+      double lower = std::floor(place);
+      lower = lower > least ? lower : least;
+      lower = lower < most ? lower : most;
+      double upper_share = place - lower;
+      upper_share = upper_share > 0 ? upper_share : 0;
+      upper_share = upper_share < 1 ? upper_share : 1;
+      return {int(lower), {upper_share}};
+    }
+    /// linear_rows(), `pairs` a copy that nothing else can refer to.
+    static bool rows(Pairs pairs, const double* x, std::size_t count, int* lower, double* upper);
+  };
+  std::optional<Pairs> pairs_; ///< where cells are equal, and two at least without a period
 };
 
 /// Finds the cell of a point on the lattice: arithmetic on uniform directions, binary search on
@@ -129,18 +156,9 @@ inline CellRow<2> LatticeAxis::inner(int lower, double upper_share) const {
 }
 
 inline std::optional<CellRow<2>> LatticeAxis::linear_row(double x) const {
-  if (equal_ && nodes_.front() <= x && x <= nodes_.back()) {
-    const double place = (x - nodes_.front()) * per_length_ - 0.5, lower = std::floor(place);
-    return inner(int(lower), place - lower);
-  }
-  const std::optional<int> in = cell(x);
-  if (!in)
-    return std::nullopt;
-  const int lower = x < centre(*in) ? *in - 1 : *in;
-  if (!periodic_ && (lower < 0 || lower + 1 >= cells_))
-    return inner(lower, 0);
-  const double below = centre(lower), above = centre(lower + 1);
-  return CellRow<2>{lower, {(x - below) / (above - below)}};
+  if (pairs_ && pairs_->first <= x && x <= pairs_->last)
+    return pairs_->row(x);
+  return searched_row(x);
 }
 
 inline CellRow<3> LatticeAxis::inner(int middle, double below, double above) const {
