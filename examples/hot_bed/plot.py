@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
-DIAMETER, DT = 1.2, 1e-5  # mm, s
+DIAMETER, DT = 1.2, 8e-6  # mm, s
 COLUMNS = ("step", "time", "mean", "lowest", "highest", "walls", "friction", "damping", "gas", "handed over",
            "gas residual", "open", "heat", "biot")
 

@@ -121,6 +121,7 @@ def read_study(folder):
         table.close()
     knobs = tuple(_knob(table, files) for table in top.tables("knob", 1))
     _distinct([k.name for k in knobs], "[[knob]]")
+    _apart(knobs)
     quantities = tuple(_quantity(table, path.parent) for table in top.tables("quantity", 1))
     _distinct([q.name for q in quantities], "[[quantity]]")
     if not any(q.judged for q in quantities):
@@ -259,6 +260,16 @@ def _profile_file(table, folder):
     if values.ndim != 1 or not np.all(np.isfinite(values)):
         raise BadInput(f"{table.where} against: {path}: must be a file with one number a line")
     return values
+
+
+def _apart(knobs):
+    """No two knobs may set the same: one would undo what the other's label says."""
+    owners = {}
+    for knob in knobs:
+        for name in {n for level in knob.levels for n in (*level.changes.variables, *level.changes.keys)}:
+            other = owners.setdefault(name, knob.name)
+            if other != knob.name:
+                raise BadInput(f'study.toml: [[knob]] "{knob.name}" and "{other}" both set {name}: one knob must set it')
 
 
 def _distinct(names, where):

@@ -44,6 +44,10 @@ class BadCases(Folder):
         (self.case / "study.toml").write_text(self.text)
         self.assertEqual([k.base for k in read_study(self.case).knobs], ["32", "0.01", "limited"])
 
+    def test_two_knobs_that_set_the_same(self):
+        self.refused("channel.toml:numerics.convection", "channel.toml:numerics.time_step", "both set channel.toml:numerics.time_step",
+                     "one knob must set it")
+
     def test_unknown_keys(self):
         self.refused("simulated_time = 0.4", "simulated_time = 0.4\nthread = 2", "[run] thread", "did you mean threads?")
         self.refused("closed_form", "closed_from", "closed_from", "did you mean closed_form?")

@@ -43,7 +43,7 @@ EXAMPLES = {
         edits=(("in.settle", r"run +16000", "run 100"),), program="GRANFLUX_LAMMPS"),
     "hot_bed": Example(
         files=("in.hot_bed", "hot_bed.toml"), script="in.hot_bed", variables={"time": 1e-3}, columns=WITH_GAS + " f_Temp",
-        edits=(("in.hot_bed", r"run +10000", "run 100"),), every=4),
+        edits=(("in.hot_bed", r"run +12500", "run 100"),), every=4),
     "rotary_kiln": Example(
         files=("in.*", "end.stl", "kiln.toml"), before="in.settle", script="in.kiln", columns=WITH_GAS + " f_Temp",
         variables={"settling": 2e-3, "time": 2e-3, "every": 1e-3, "report": 1e-3}, every=40),
