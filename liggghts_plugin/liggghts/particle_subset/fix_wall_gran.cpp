@@ -343,10 +343,14 @@ void FixWallGran::touch_primitive(Range block) {
 }
 
 void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Batch& batch) {
-  double* history = dnum() > 0 ? fix_history_primitive_->array_atom[particle] : nullptr;
+  // Not by the arrays of rows' addresses, which would come from memory for this alone.
+  double* const x = x_[0] + 3 * std::ptrdiff_t(particle);
+  double* const history =
+      dnum() > 0 ? fix_history_primitive_->array_atom[0] + std::ptrdiff_t(dnum()) * particle
+                 : nullptr;
   const double radius = radius_[particle];
   double to_wall[3] = {0, 0, 0};
-  const double gap = primitiveWall_->resolveContact(x_[particle], radius, to_wall);
+  const double gap = primitiveWall_->resolveContact(x, radius, to_wall);
   if (gap > cutneighmax_)
     return;
   if (gap > 0) {
@@ -365,7 +369,7 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
   double velocity[3] = {wall_velocity[0], wall_velocity[1], wall_velocity[2]};
   if (shear_ && shearAxis_ >= 0) { // a turning cylinder
     double radial[3];
-    primitiveWall_->calcRadialDistance(x_[particle], radial);
+    primitiveWall_->calcRadialDistance(x, radial);
     LAMMPS_NS::vectorCross3D(shearAxisVec_, radial, velocity);
   }
   const WallTouch touch = wall_touch(particle, gap, to_wall, velocity, history);
