@@ -26,11 +26,7 @@
 
 #include <granflux/cfd/vec3.hpp>
 
-#include "driver/fixes_of_run.hpp"
-#include "driver/guard.hpp"
 #include "driver/restart_values.hpp"
-#include "driver/say.hpp"
-#include "driver/scene_of_script.hpp"
 #include "fix_couple.hpp"
 #include "particle_subset/temperature_step.hpp"
 #include "scene.hpp"
@@ -65,33 +61,21 @@ Vec3 slip_of(const LAMMPS_NS::Atom& atom, int i, int j, const Vec3& apart, doubl
 } // namespace
 
 FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), temperature_(std::vector<double>(1)), carry_(std::vector<double>(1)) {
-  restart_global = restart_peratom = 1;
+    : HeatFix(lammps, narg, arg), temperature_(std::vector<double>(1)),
+      carry_(std::vector<double>(1)) {
+  restart_peratom = 1;
   create_attribute = 1;
-  scalar_flag = vector_flag = 1;
-  size_vector = driver::HeatReport::values;
-  global_freq = 1;
-  extscalar = 1;
-  extvector = 0;
   peratom_flag = 1;
   size_peratom_cols = 0;
   peratom_freq = 1;
   comm_forward = 1;
   comm_reverse = 2;
   maxexchange = 2;
-  driver::guard(*this, *error, [&] {
-    driver::refuse_second_fix(*modify, style, "");
-    if (igroup != 0)
-      throw ConfigError(fmt::format("group {}: must be all; fixed_temperature names groups whose "
-                                    "temperatures stay",
-                                    group->names[igroup]));
+  guarded([&] {
     check_script();
     words_ = read_heat_words({arg + 3, std::size_t(narg - 3)}, atom->ntypes);
-    for (const std::string& name : words_.options.fixed_groups)
-      if (group->find(name) < 0)
-        throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
+    check_groups();
   });
-  available_ = words_.options.available();
   find_law();
   temperature_ = ParticleRows(std::vector<double>{words_.options.initial_temperature});
   grow_arrays(atom->nmax);
@@ -112,29 +96,13 @@ void FixHeat::find_law() {
       std::vector<double>(words_.materials.size() * words_.materials.size(), 1));
 }
 
-/// Leaves to the numbers what the words leave to them, before the first run with particles.
-void FixHeat::choose_effects() {
-  if (chosen_ || !words_.options.effects.given())
-    return;
-  const coupling::SceneState found = scene();
-  if (words_.options.effects.by == driver::EffectsWanted::By::numbers) {
-    words_.options.keep(driver::decide(found, available_));
-    find_law();
-  }
-  chosen_ = true;
-  const driver::EffectSet on = words_.options.available();
-  watch_ = driver::EffectWatch(driver::effects_of_heat, available_, on);
-  watch_.begin(found);
-  driver::say(*lmp, driver::effects_table(found, driver::effects_of_heat, available_, on));
+void FixHeat::keep(driver::EffectSet on) {
+  words_.options.keep(on);
+  find_law();
 }
 
-coupling::SceneState FixHeat::scene() {
-  coupling::SceneState scene;
-  driver::describe_particles(*lmp, gravity_of(*lmp), scene);
-  describe(scene);
-  if (const auto* couple = driver::find_fix<FixCouple>(*modify))
-    couple->describe(scene);
-  return scene;
+std::optional<Vec3> FixHeat::gravity() const {
+  return gravity_of(*lmp);
 }
 
 void FixHeat::describe(coupling::SceneState& scene) {
@@ -147,13 +115,6 @@ void FixHeat::describe(coupling::SceneState& scene) {
   }
   driver::add_temperatures(scene, {temperature_.data(), std::size_t(atom->nlocal)}, world);
   scene.heat = heat;
-}
-
-void FixHeat::warn_of_neglected() {
-  if (!words_.options.effects.given())
-    return;
-  if (const std::string text = watch_.warnings(scene()); !text.empty())
-    driver::say(*lmp, text);
 }
 
 int FixHeat::setmask() {
@@ -186,43 +147,34 @@ void FixHeat::check_pair_style() const {
     throw ConfigError("comm_modify vel no: must be yes");
 }
 
-int FixHeat::held_bits() const {
-  int bits = 0;
-  for (const std::string& name : words_.options.fixed_groups)
-    bits |= group->bitmask[group->find(name)];
-  return bits;
-}
-
 void FixHeat::init() {
-  driver::guard(*this, *error, [&] {
-    choose_effects();
+  guarded([&] {
+    begin_run();
     check_pair_style();
   });
-  held_ = held_bits();
   frozen_ = 0;
   for (int i = 0; i < modify->nfix; ++i)
     if (std::string_view(modify->fix[i]->style) == "freeze")
       frozen_ |= modify->fix[i]->groupbit;
-  steps_by_gas_ = false;
 }
 
 void FixHeat::setup(int) {
-  if (heat_at_start_)
-    return;
-  heat_at_start_ = heat_of_all_ranks();
+  open_books();
+}
+
+std::string FixHeat::method() const {
   const auto& contacts = words_.options.contacts;
-  driver::say(
-      *lmp,
-      fmt::format("granflux: heat of contacts beside LAMMPS' own forces; conduction {}, friction "
-                  "{}; walls are adiabatic\n",
-                  contacts.radius ? std::visit([](const auto& r) { return std::string(r.name); },
-                                               *contacts.radius)
-                                  : "off",
-                  contacts.friction == FrictionHeat::off ? "off" : "speed"));
+  return fmt::format(
+      "granflux: heat of contacts beside LAMMPS' own forces; conduction {}, friction {}; walls are "
+      "adiabatic\n",
+      contacts.radius
+          ? std::visit([](const auto& r) { return std::string(r.name); }, *contacts.radius)
+          : "off",
+      contacts.friction == FrictionHeat::off ? "off" : "speed");
 }
 
 /// Along LAMMPS' own list, after the forces and with the velocities that they came from.
-void FixHeat::sum_contacts() {
+driver::HeatPowers FixHeat::sum_contacts() {
   comm->forward_comm_fix(this);
   const double* temperature = temperature_.data();
   LAMMPS_NS::Pair& pair = *force->pair;
@@ -265,7 +217,7 @@ void FixHeat::sum_contacts() {
   }
   if (force->newton_pair)
     comm->reverse_comm_fix(this);
-  powers_ = {.conduction = conducted, .friction = made};
+  return {.conduction = conducted, .friction = made};
 }
 
 /// Power of the tangential force that the pair style has just told, with the slip at the middle of
@@ -283,24 +235,16 @@ double FixHeat::friction_heat(const double* told, int i, int j, const Vec3& apar
 }
 
 void FixHeat::post_force(int) {
-  if (!steps_by_gas_ && !rests())
-    step(nullptr);
-  if (words_.options.effects.given() && watch_.due(long(update->ntimestep)))
-    warn_of_neglected();
-}
-
-double FixHeat::step_with_gas(coupling::HeatState* states) {
-  step(states);
-  return update->dt * powers_.convection;
+  step_alone();
 }
 
 void FixHeat::step(coupling::HeatState* gas) {
   const auto n = std::size_t(atom->nlocal);
   rate_.assign(n, 0);
   no_source_.resize(n);
-  powers_ = {};
+  driver::HeatPowers powers;
   if (touching_) {
-    sum_contacts();
+    powers = sum_contacts();
     for (std::size_t i = 0; i < n; ++i)
       rate_[i] = contacts_[i].rate;
     check_time_step();
@@ -313,11 +257,11 @@ void FixHeat::step(coupling::HeatState* gas) {
                                                 .type = atom->type,
                                                 .groups = atom->mask,
                                                 .gas = gas};
-  const auto stepped = particle_subset::step_temperature(heated, words_.capacity, held_, update->dt,
-                                                         {.begin = 0, .end = atom->nlocal});
-  powers_.convection = stepped.convection;
-  powers_.held = stepped.held;
-  books_.book(powers_, update->dt);
+  const auto stepped = particle_subset::step_temperature(
+      heated, words_.capacity, held(), update->dt, {.begin = 0, .end = atom->nlocal});
+  powers.convection = stepped.convection;
+  powers.held = stepped.held;
+  book(powers);
 }
 
 void FixHeat::check_time_step() const {
@@ -326,26 +270,7 @@ void FixHeat::check_time_step() const {
     largest =
         std::max(largest, contacts_[std::size_t(i)].conductance /
                               (atom->rmass[i] * words_.capacity[std::size_t(atom->type[i]) - 1]));
-  if (update->dt * largest > 1)
-    error->one(FLERR, fmt::format("fix {} granflux/heat: the time step of {} s is {:.3g} times the "
-                                  "time in which contacts would take a particle to the "
-                                  "temperature around it: use a smaller one",
-                                  id, update->dt, update->dt * largest));
-}
-
-void FixHeat::show_to_gas(coupling::ParticleView& view) {
-  const auto n = std::size_t(atom->nlocal);
-  heat_capacity_.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    heat_capacity_[i] = atom->rmass[i] * words_.capacity[std::size_t(atom->type[i]) - 1];
-  view.temperature = {temperature_.data(), n};
-  view.heat_capacity = heat_capacity_;
-  if (!held_)
-    return;
-  is_held_.resize(n);
-  std::transform(atom->mask, atom->mask + n, is_held_.begin(),
-                 [&](int groups) { return std::uint8_t((groups & held_) != 0); });
-  view.fixed_temperature = is_held_;
+  refuse_long_step(update->dt * largest);
 }
 
 driver::WarmParticles FixHeat::particles() const {
@@ -358,54 +283,22 @@ driver::WarmParticles FixHeat::particles() const {
           .capacity = words_.capacity};
 }
 
-double FixHeat::heat_of_all_ranks() const {
-  double heat = heat_of(particles());
-  MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
-  return heat;
-}
-
-/// Once a step, by all ranks.
-void FixHeat::look_at_temperatures() {
-  if (looked_at_ == update->ntimestep)
-    return;
-  looked_at_ = update->ntimestep;
-  std::optional<driver::HeatReport::Conduction> conduction;
-  if (words_.options.contacts.radius)
-    conduction = {.conductance =
-                      [&](int i) {
-                        return std::size_t(i) < contacts_.size() // none before the first step
-                                   ? contacts_[std::size_t(i)].conductance
-                                   : 0;
-                      },
-                  .materials = words_.materials};
-  report_.look(particles(), conduction, powers_, books_, heat_at_start_, world);
-  driver::say(*lmp, report_.warnings(false));
-}
-
-void FixHeat::post_run() {
-  if (update->ntimestep == update->firststep)
-    return;
-  looked_at_ = -1;
-  look_at_temperatures();
-  if (words_.options.contacts.radius)
-    driver::say(*lmp, report_.biot_numbers());
-  warn_of_neglected();
-}
-
-double FixHeat::compute_scalar() {
-  look_at_temperatures();
-  return report_.heat();
-}
-
-double FixHeat::compute_vector(int n) {
-  look_at_temperatures();
-  return report_.value(n);
+std::optional<driver::HeatReport::Conduction> FixHeat::conduction() const {
+  if (!words_.options.contacts.radius)
+    return {};
+  return driver::HeatReport::Conduction{.conductance =
+                                            [this](int i) {
+                                              return std::size_t(i) < contacts_.size()
+                                                         ? contacts_[std::size_t(i)].conductance
+                                                         : 0; // before the first step
+                                            },
+                                        .materials = words_.materials};
 }
 
 int FixHeat::modify_param(int narg, char** arg) {
   if (narg < 3 || std::string_view(arg[0]) != "temperature")
     return 0; // LAMMPS reports it
-  driver::guard(*this, *error, [&] { set_temperatures(arg[1], arg[2]); });
+  guarded([&] { set_temperatures(arg[1], arg[2]); });
   return 3;
 }
 
@@ -424,16 +317,7 @@ void FixHeat::set_temperatures(const char* of_group, const char* kelvin) {
       temperature_.data()[i] = value;
       carry_.data()[i] = 0;
     }
-  looked_at_ = -1;
-}
-
-void FixHeat::write_restart(FILE* file) {
-  driver::guard(*this, *error, [&] { write_heat_books(books_, heat_at_start_, file, world); });
-}
-
-void FixHeat::restart(char* block) {
-  driver::guard(*this, *error,
-                [&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
+  look_again();
 }
 
 void FixHeat::grow_arrays(int n) {

@@ -12,8 +12,7 @@
 
 #include <granflux/coupling/particle_view.hpp>
 
-#include "driver/heat_books.hpp"
-#include "driver/heat_report.hpp"
+#include "driver/heat_fix.hpp"
 #include "driver/particle_rows.hpp"
 #include "heat_words.hpp"
 
@@ -21,9 +20,11 @@ namespace granflux::lammps {
 
 using driver::ParticleRows;
 
+class FixCouple;
+
 /// fix ID all granflux/heat initial_temperature T ...: a temperature for every particle, conduction
 /// through contacts and the heat of friction (docs/reference/granflux_lammps.md).
-class FixHeat : public LAMMPS_NS::Fix {
+class FixHeat : public driver::HeatFix<LAMMPS_NS::Fix, FixCouple> {
 public:
   FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   ~FixHeat() override;
@@ -34,13 +35,7 @@ public:
   void init() override;
   void setup(int) override;
   void post_force(int) override;
-  void post_run() override;
-  /// Heat of all particles, sum of m c T [J].
-  double compute_scalar() override;
-  double compute_vector(int n) override;
   int modify_param(int narg, char** arg) override;
-  void write_restart(FILE* file) override;
-  void restart(char* block) override;
 
   // Temperatures of the particles.
   void grow_arrays(int n) override;
@@ -58,16 +53,7 @@ public:
   int pack_reverse_comm(int n, int first, double* buffer) override;
   void unpack_reverse_comm(int n, int* list, double* buffer) override;
 
-  /// In each run between init() and the first step: the gas brings about the steps of temperature
-  /// itself, by step_with_gas().
-  void leave_steps_to_gas() { steps_by_gas_ = true; }
-  /// The step of this time step; returns the heat that this rank's particles took from the gas [J].
-  /// `states`: of the owned particles.
-  double step_with_gas(coupling::HeatState* states);
-  /// Temperatures and heat capacities of the owned particles, and which stay as they are.
-  void show_to_gas(coupling::ParticleView& view);
-  /// Adds what particles conduct, and their temperatures. Collective.
-  void describe(coupling::SceneState& scene);
+  void describe(coupling::SceneState& scene) override;
 
 private:
   /// What the contacts of a particle bring it in this step.
@@ -77,46 +63,30 @@ private:
   };
 
   void check_script() const;
-  void choose_effects();
   void find_law();
-  [[nodiscard]] coupling::SceneState scene();
-  void warn_of_neglected();
-  /// Temperatures stay as they are: chosen so, and no gas changes them.
-  [[nodiscard]] bool rests() const {
-    return words_.options.effects.given() && !touching_ && !steps_by_gas_;
-  }
   void check_pair_style() const;
-  [[nodiscard]] int held_bits() const;
-  void sum_contacts();
+  driver::HeatPowers sum_contacts();
   [[nodiscard]] double friction_heat(const double* told, int i, int j, const Vec3& apart,
                                      double squared) const;
-  void step(coupling::HeatState* gas);
+  void step(coupling::HeatState* gas) override;
   void check_time_step() const;
-  [[nodiscard]] driver::WarmParticles particles() const;
-  [[nodiscard]] double heat_of_all_ranks() const;
-  void look_at_temperatures();
+  [[nodiscard]] const driver::HeatOptions& options() const override { return words_.options; }
+  [[nodiscard]] driver::WarmParticles particles() const override;
+  [[nodiscard]] std::optional<driver::HeatReport::Conduction> conduction() const override;
+  [[nodiscard]] std::optional<Vec3> gravity() const override;
+  [[nodiscard]] std::string method() const override;
+  void keep(driver::EffectSet on) override;
   void set_temperatures(const char* of_group, const char* kelvin);
 
   HeatWords words_;
-  driver::EffectSet available_; // of the words
-  bool chosen_ = false;         // effects are, and the table is printed
-  driver::EffectWatch watch_;
   particle_subset::ContactHeat law_;
-  bool touching_ = false;     ///< contacts exchange or make heat
-  int held_ = 0, frozen_ = 0; ///< groups: of fixed temperature, held in place
-  bool steps_by_gas_ = false;
+  bool touching_ = false; ///< contacts exchange or make heat
+  int frozen_ = 0;        ///< groups held in place
 
   ParticleRows temperature_; // K
   ParticleRows carry_;       // what rounding has kept from it [K]
   std::vector<Contacts> contacts_;
-  std::vector<double> rate_, no_source_, heat_capacity_;
-  std::vector<std::uint8_t> is_held_;
-
-  std::optional<double> heat_at_start_; // of all ranks when the books were opened [J]
-  driver::HeatPowers powers_;           // of the last step, this rank
-  driver::HeatBooks books_;             // of this rank
-  driver::HeatReport report_;
-  LAMMPS_NS::bigint looked_at_ = -1; // step of report_
+  std::vector<double> rate_, no_source_;
 };
 
 } // namespace granflux::lammps

@@ -30,10 +30,6 @@
 
 #include <granflux/coupling/contact_heat/conductance.hpp>
 
-#include "driver/fixes_of_run.hpp"
-#include "driver/guard.hpp"
-#include "driver/say.hpp"
-#include "driver/scene_of_script.hpp"
 #include "fix_couple.hpp"
 #include "particle_subset/fix_wall_gran.hpp"
 #include "particle_subset/pair_gran.hpp"
@@ -61,34 +57,19 @@ constexpr int doubles(std::size_t bytes) {
 
 } // namespace
 
-FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
-  restart_global = 1;
-  scalar_flag = vector_flag = 1;
-  size_vector = driver::HeatReport::values;
-  global_freq = 1;
-  extscalar = 1;
-  extvector = 0;
-  driver::guard(*this, *error, [&] {
-    driver::refuse_second_fix(*modify, style, "");
-    if (igroup != 0)
-      throw ConfigError(fmt::format("group {}: must be all; fixed_temperature names groups whose "
-                                    "temperatures stay",
-                                    group->names[igroup]));
+FixHeat::FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : HeatFix(lammps, narg, arg) {
+  guarded([&] {
     options_ = driver::read_heat_options({arg + 3, std::size_t(narg - 3)});
-    available_ = options_.available();
     of_words_ = options_;
-    for (const std::string& name : options_.fixed_groups)
-      if (group->find(name.c_str()) < 0)
-        throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
+    check_groups();
   });
 }
 
 int FixHeat::setmask() {
   using namespace LAMMPS_NS::FixConst;
-  return PRE_FORCE | PRE_FINAL_INTEGRATE |
-         (available_.has(driver::Effect::gas_gap) || available_.has(driver::Effect::radiation)
-              ? PRE_EXCHANGE
-              : 0);
+  const driver::EffectSet words = options_.available();
+  const bool near = words.has(driver::Effect::gas_gap) || words.has(driver::Effect::radiation);
+  return PRE_FORCE | PRE_FINAL_INTEGRATE | (near ? PRE_EXCHANGE : 0);
 }
 
 /// A fix property/atom of that name, made here unless there is one.
@@ -113,7 +94,7 @@ void FixHeat::post_create() {
   carry_ = property("granflux_temperature_carry", 1, true, false, 0);
   heat_flux_ = property("heatFlux", 1, false, false, 0);
   source_ = property("heatSource", 1, true, false, 0);
-  if (!options_.effects.given() || available_.has(driver::Effect::friction))
+  if (!options_.effects.given() || options_.available().has(driver::Effect::friction))
     parted_ = property("granflux_parted_heat", 1, true, false, 0);
   if (options_.effects.by != driver::EffectsWanted::By::numbers)
     make_properties();
@@ -154,23 +135,14 @@ void FixHeat::check_script() const {
   }
 }
 
-int FixHeat::held_bits() const {
-  int bits = 0;
-  for (const std::string& name : options_.fixed_groups)
-    bits |= group->bitmask[group->find(name.c_str())];
-  return bits;
-}
-
 void FixHeat::init() {
-  driver::guard(*this, *error, [&] {
+  guarded([&] {
     check_script();
-    choose_effects();
+    begin_run();
     materials_ = read_heat_materials(*lmp, options_);
     law_ = particle_subset::ContactHeat(options_.contacts, materials_.materials,
                                         materials_.overlap_ratio);
     near_law_ = particle_subset::NearHeat(options_.near, materials_.emissivity);
-    held_ = held_bits();
-    steps_by_gas_ = false;
     sums_.resize(static_cast<std::size_t>(omp_get_max_threads()));
     subsets_ = dynamic_cast<particle_subset::PairGran*>(force->pair);
     if (subsets_ && !subsets_->holds_history())
@@ -208,18 +180,14 @@ void FixHeat::setup_pre_exchange() {
 
 void FixHeat::setup(int) {
   near_seconds_ = step_seconds_ = particle_steps_ = 0;
-  driver::guard(*this, *error, [&] {
+  guarded([&] {
     if (touches())
       link_walls();
-    if (!heat_at_start_)
-      heat_at_start_ = heat_of_all_ranks();
-    if (!said_)
-      driver::say(*lmp, effects());
-    said_ = true;
+    open_books();
   });
 }
 
-std::string FixHeat::effects() const {
+std::string FixHeat::method() const {
   const auto& contacts = options_.contacts;
   const auto& [gap, surroundings] = options_.near;
   return fmt::format(
@@ -236,30 +204,13 @@ std::string FixHeat::effects() const {
       surroundings ? fmt::format(", radiation, surroundings of {} K", *surroundings) : "");
 }
 
-/// Leaves to the numbers what the words leave to them, before the first run with particles.
-void FixHeat::choose_effects() {
-  if (chosen_ || !options_.effects.given())
-    return;
-  materials_ = read_heat_materials(*lmp, options_);
-  const coupling::SceneState found = scene();
-  if (options_.effects.by == driver::EffectsWanted::By::numbers) {
-    options_.keep(driver::decide(found, available_));
-    make_properties();
-  }
-  chosen_ = true;
-  watch_ = driver::EffectWatch(driver::effects_of_heat, available_, options_.available());
-  watch_.begin(found);
-  driver::say(*lmp, driver::effects_table(found, driver::effects_of_heat, available_,
-                                          options_.available()));
+void FixHeat::keep(driver::EffectSet on) {
+  options_.keep(on);
+  make_properties();
 }
 
-coupling::SceneState FixHeat::scene() {
-  coupling::SceneState scene;
-  driver::describe_particles(*lmp, gravity_of(*lmp), scene);
-  describe(scene);
-  if (const auto* couple = driver::find_fix<FixCouple>(*modify))
-    couple->describe(scene);
-  return scene;
+std::optional<Vec3> FixHeat::gravity() const {
+  return gravity_of(*lmp);
 }
 
 void FixHeat::describe(coupling::SceneState& scene) {
@@ -280,13 +231,6 @@ void FixHeat::describe(coupling::SceneState& scene) {
     scene.meets(*of_words_.near.surroundings);
   driver::add_temperatures(scene, {temperature_->vector_atom, std::size_t(atom->nlocal)}, world);
   scene.heat = heat;
-}
-
-void FixHeat::warn_of_neglected() {
-  if (!options_.effects.given())
-    return;
-  if (const std::string text = watch_.warnings(scene()); !text.empty())
-    driver::say(*lmp, text);
 }
 
 void FixHeat::link_walls() {
@@ -392,30 +336,7 @@ void FixHeat::conduct_by_shape() {
 }
 
 void FixHeat::pre_final_integrate() {
-  if (!steps_by_gas_ && !rests())
-    step(nullptr);
-  if (options_.effects.given() && watch_.due(long(update->ntimestep)))
-    driver::guard(*this, *error, [&] { warn_of_neglected(); });
-}
-
-double FixHeat::step_with_gas(coupling::HeatState* states) {
-  step(states);
-  return update->dt * powers_.convection;
-}
-
-void FixHeat::show_to_gas(coupling::ParticleView& view) {
-  const auto n = std::size_t(atom->nlocal);
-  heat_capacity_.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    heat_capacity_[i] = atom->rmass[i] * materials_.capacity[std::size_t(atom->type[i]) - 1];
-  view.temperature = {temperature_->vector_atom, n};
-  view.heat_capacity = heat_capacity_;
-  if (!held_)
-    return;
-  is_held_.resize(n);
-  std::transform(atom->mask, atom->mask + n, is_held_.begin(),
-                 [&](int groups) { return std::uint8_t((groups & held_) != 0); });
-  view.fixed_temperature = is_held_;
+  step_alone();
 }
 
 double* FixHeat::parted_heat() {
@@ -461,7 +382,7 @@ void FixHeat::step(coupling::HeatState* gas) {
   std::vector<particle_subset::StepPowers> parts(sums_.size());
   particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
     parts[std::size_t(omp_get_thread_num())] =
-        step_temperature(particles, materials_.capacity, held_, dt, range);
+        step_temperature(particles, materials_.capacity, held(), dt, range);
   });
   particle_subset::StepPowers stepped;
   for (const auto& part : parts)
@@ -469,16 +390,15 @@ void FixHeat::step(coupling::HeatState* gas) {
   HeatSums contacts;
   for (const HeatSums& part : sums_)
     contacts += part;
-  powers_ = {.conduction = contacts.conduction,
-             .walls = contacts.walls,
-             .friction = contacts.friction,
-             .damping = contacts.damping,
-             .convection = stepped.convection,
-             .source = stepped.source,
-             .to_walls = contacts.to_walls,
-             .held = stepped.held,
-             .radiation = contacts.radiation};
-  books_.book(powers_, dt);
+  book({.conduction = contacts.conduction,
+        .walls = contacts.walls,
+        .friction = contacts.friction,
+        .damping = contacts.damping,
+        .convection = stepped.convection,
+        .source = stepped.source,
+        .to_walls = contacts.to_walls,
+        .held = stepped.held,
+        .radiation = contacts.radiation});
   near_seconds_ += between - start;
   step_seconds_ += MPI_Wtime() - between;
   particle_steps_ += atom->nlocal;
@@ -487,14 +407,8 @@ void FixHeat::step(coupling::HeatState* gas) {
 void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles) const {
   if (!details_)
     return;
-  const double number = conduction_number(shown(), particles, materials_.capacity, update->dt,
-                                          {.begin = 0, .end = atom->nlocal});
-  if (number > 1)
-    error->one(FLERR, fmt::format("fix {} granflux/heat: the time step of {} s is {:.3g} times the "
-                                  "time in which contacts, gaps and radiation would take a "
-                                  "particle to the temperature around it: use a smaller one",
-                                  id, update->dt, number)
-                          .c_str());
+  refuse_long_step(conduction_number(shown(), particles, materials_.capacity, update->dt,
+                                     {.begin = 0, .end = atom->nlocal}));
 }
 
 driver::WarmParticles FixHeat::particles() const {
@@ -507,60 +421,20 @@ driver::WarmParticles FixHeat::particles() const {
           .capacity = materials_.capacity};
 }
 
-double FixHeat::heat_of_all_ranks() const {
-  double heat = heat_of(particles());
-  MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
-  return heat;
-}
-
-/// Once a step, by all ranks.
-void FixHeat::look_at_temperatures() {
-  if (looked_at_ == update->ntimestep)
-    return;
-  looked_at_ = update->ntimestep;
-  std::optional<driver::HeatReport::Conduction> conduction;
-  if (options_.contacts.radius)
-    conduction = {.conductance = [details = rows<HeatDetails>(*details_)](
-                                     int i) { return details[i].conductance; },
-                  .materials = materials_.materials};
-  report_.look(particles(), conduction, powers_, books_, heat_at_start_, world);
-  driver::say(*lmp, report_.warnings(options_.near.surroundings.has_value()));
+std::optional<driver::HeatReport::Conduction> FixHeat::conduction() const {
+  if (!options_.contacts.radius)
+    return {};
+  return driver::HeatReport::Conduction{
+      .conductance = [details =
+                          rows<HeatDetails>(*details_)](int i) { return details[i].conductance; },
+      .materials = materials_.materials};
 }
 
 void FixHeat::post_run() {
-  if (update->ntimestep == update->firststep)
-    return;
-  looked_at_ = -1;
-  look_at_temperatures();
-  if (options_.contacts.radius)
-    driver::say(*lmp, report_.biot_numbers());
-  driver::guard(*this, *error, [&] { warn_of_neglected(); });
-  if (options_.effects.given())
+  HeatFix::post_run();
+  if (options_.effects.given() && update->ntimestep != update->firststep)
     driver::say(*lmp, driver::heat_cost(options_.available(),
                                         {near_seconds_, step_seconds_, particle_steps_}, world));
-}
-
-double FixHeat::compute_scalar() {
-  if (materials_.capacity.empty())
-    return 0; // before the first run
-  look_at_temperatures();
-  return report_.heat();
-}
-
-double FixHeat::compute_vector(int n) {
-  if (materials_.capacity.empty())
-    return 0; // before the first run
-  look_at_temperatures();
-  return report_.value(n);
-}
-
-void FixHeat::write_restart(FILE* file) {
-  driver::guard(*this, *error, [&] { write_heat_books(books_, heat_at_start_, file, world); });
-}
-
-void FixHeat::restart(char* block) {
-  driver::guard(*this, *error,
-                [&] { books_ = driver::read_heat_books(block, heat_at_start_, world); });
 }
 
 } // namespace granflux::liggghts
