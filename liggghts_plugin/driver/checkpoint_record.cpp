@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <stdexcept>
 #include <string_view>
 
@@ -60,7 +59,7 @@ std::vector<KeptFix> fixes_of(std::string_view text) {
 /// As many numbers as have room for the letters.
 std::vector<double> packed(const std::string& text) {
   std::vector<double> numbers((text.size() + sizeof(double) - 1) / sizeof(double));
-  std::memcpy(numbers.data(), text.data(), text.size());
+  std::ranges::copy(text, reinterpret_cast<char*>(numbers.data()));
   return numbers;
 }
 
