@@ -63,6 +63,10 @@ public:
   /// A set-up may take long: times of the report are counted from here on.
   void start_timers();
   [[nodiscard]] bool running() const { return running_; }
+  /// Particle steps of each coupling step; 0: they follow a Courant number.
+  [[nodiscard]] int couple_every() const {
+    return gas_case_.numerics.courant > 0 ? 0 : clock_.every();
+  }
 
   /// In every step, when all other forces are known and velocities are those of its middle: adds
   /// the fluid force. Returns whether it was a coupling step.

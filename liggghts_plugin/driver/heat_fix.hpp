@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <mpi.h>
@@ -18,6 +19,7 @@
 #include "fixes_of_run.hpp"
 #include "guard.hpp"
 #include "heat_books.hpp"
+#include "heat_every.hpp"
 #include "heat_options.hpp"
 #include "heat_report.hpp"
 #include "say.hpp"
@@ -67,12 +69,16 @@ public:
 
   /// In each run between init() and the first step: the gas brings about the steps of temperature
   /// itself, by step_with_gas().
-  void leave_steps_to_gas() { steps_by_gas_ = true; }
-  /// The step of this time step; returns the heat that this rank's particles took from the gas [J].
-  /// `states`: of the owned particles.
+  /// `couple_every`: time steps between two exchanges with it, 0 where their number changes.
+  void leave_steps_to_gas(int couple_every) {
+    check_heat_every_with_gas(options().every, couple_every);
+    steps_by_gas_ = true;
+  }
+  /// The step of this time step; returns the heat that this rank's particles took from the gas [J]:
+  /// none where temperatures take no step. `states`: of the owned particles.
   double step_with_gas(coupling::HeatState* states) {
     step(states);
-    return this->update->dt * powers_.convection;
+    return steps_now() ? step_of_temperature() * powers_.convection : 0;
   }
   /// Temperatures and heat capacities of the owned particles, and which stay as they are.
   void show_to_gas(coupling::ParticleView& view);
@@ -103,11 +109,21 @@ protected:
   void open_books();
   /// In every step, unless the gas brings it about.
   void step_alone();
-  /// Of this step.
-  void book(const HeatPowers& powers) {
+  /// Of this step of temperature of `dt` seconds, but what goes into walls.
+  void book(const HeatPowers& powers, double dt) {
     powers_ = powers;
-    books_.book(powers, this->update->dt);
+    HeatPowers received = powers;
+    received.to_walls = 0;
+    books_.book(received, dt);
   }
+  /// In every time step: it is in no temperature.
+  void book_for_walls(double power, double dt) { books_.to_walls += dt * power; }
+  /// Temperatures take a step in this time step, of step_of_temperature() seconds: by the number of
+  /// the time step alone, which a restart file knows.
+  [[nodiscard]] bool steps_now() const { return this->update->ntimestep % options().every == 0; }
+  [[nodiscard]] double step_of_temperature() const { return options().every * this->update->dt; }
+  /// Before a run. `contact_times`: gives those of the host; collective.
+  void check_heat_every(auto&& contact_times);
   /// `number`: of time steps in the time in which contacts would take a particle to the
   /// temperature around it, the least of all.
   void refuse_long_step(double number) const;
@@ -146,6 +162,20 @@ template <class HostFix, class Couple> void HeatFix<HostFix, Couple>::check_grou
   for (const std::string& name : options().fixed_groups)
     if (this->group->find(name.c_str()) < 0)
       throw ConfigError(fmt::format("fixed_temperature {}: no such group", name));
+}
+
+template <class HostFix, class Couple>
+void HeatFix<HostFix, Couple>::check_heat_every(auto&& contact_times) {
+  if (options().every == 1)
+    return;
+  double fastest = 0;
+  for (int i = 0; i < this->atom->nlocal; ++i) {
+    const double* v = this->atom->v[i];
+    fastest = std::max(fastest, std::hypot(v[0], v[1], v[2]));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, this->world);
+  say(*this->lmp,
+      driver::check_heat_every(options().every, this->update->dt, contact_times(), fastest));
 }
 
 template <class HostFix, class Couple> void HeatFix<HostFix, Couple>::begin_run() {
@@ -225,10 +255,12 @@ template <class HostFix, class Couple>
 void HeatFix<HostFix, Couple>::refuse_long_step(double number) const {
   if (number > 1)
     end_run(*this->error,
-            fmt::format("fix {} {}: the time step of {} s is {:.3g} times the time in which "
+            fmt::format("fix {} {}: the {} of {} s is {:.3g} times the time in which "
                         "contacts, gaps and radiation would take a particle to the temperature "
                         "around it: use a smaller one",
-                        this->id, this->style, this->update->dt, number),
+                        this->id, this->style,
+                        options().every == 1 ? "time step" : "step of heat_every",
+                        step_of_temperature(), number),
             false);
 }
 

@@ -18,9 +18,19 @@ namespace {
 
 using particle_subset::FrictionHeat;
 
-const std::vector<std::string> keywords{
-    "initial_temperature", "conduction", "friction",  "damping",           "wall_share", "gas_gap",
-    "gas_layer",           "least_gap",  "radiation", "fixed_temperature", "effects"};
+const std::vector<std::string> keywords{"initial_temperature",
+                                        "conduction",
+                                        "friction",
+                                        "damping",
+                                        "wall_share",
+                                        "gas_gap",
+                                        "gas_layer",
+                                        "least_gap",
+                                        "radiation",
+                                        "fixed_temperature",
+                                        "effects",
+                                        "heat_every",
+                                        "work"};
 
 double number(const std::string& key, const std::string& word, double low, double high,
               const char* allowed) {
@@ -29,6 +39,15 @@ double number(const std::string& key, const std::string& word, double low, doubl
   const auto [last, fault] = std::from_chars(word.data(), end, value);
   if (fault != std::errc() || last != end || !std::isfinite(value) || value < low || value > high)
     throw ConfigError(fmt::format("{} {}: must be {}", key, word, allowed));
+  return value;
+}
+
+int count(const std::string& key, const std::string& word, int most) {
+  int value = 0;
+  const char* end = word.data() + word.size();
+  const auto [last, fault] = std::from_chars(word.data(), end, value);
+  if (fault != std::errc() || last != end || value < 1 || value > most)
+    throw ConfigError(fmt::format("{} {}: must be a whole number from 1 to {}", key, word, most));
   return value;
 }
 
@@ -46,6 +65,12 @@ FrictionHeat friction_heat(const std::string& word) {
   if (word == "off")
     return FrictionHeat::off;
   throw ConfigError(fmt::format("friction {}: must be slider, speed or off", word));
+}
+
+bool is_sampled(const std::string& word) {
+  if (word != "exact" && word != "sampled")
+    throw ConfigError(fmt::format("work {}: must be exact or sampled", word));
+  return word == "sampled";
 }
 
 } // namespace
@@ -131,6 +156,10 @@ HeatOptions read_heat_options(std::span<char*> given) {
       options.contacts.friction = friction_heat(value);
     else if (key == "damping")
       damping_given = true, options.contacts.damping = switched_on(key, value);
+    else if (key == "heat_every")
+      options.every = count(key, value, 1000);
+    else if (key == "work")
+      options.sampled = is_sampled(value);
     else if (key == "wall_share")
       options.contacts.wall_share = number(key, value, 0, 1, "a share from 0 to 1");
     else if (key == "gas_gap")
@@ -156,6 +185,8 @@ HeatOptions read_heat_options(std::span<char*> given) {
                                   "gas [W/(m K)]",
                                   of_gap));
   check_named(options, damping_given);
+  if (options.sampled && options.every == 1)
+    throw ConfigError("work sampled is of no use without heat_every: temperatures take every step");
   if (options.initial_temperature == 0)
     throw ConfigError("keyword initial_temperature is missing: K");
   return options;

@@ -19,6 +19,8 @@ struct HeatOptions {
   particle_subset::NearHeatOptions near;
   std::vector<std::string> fixed_groups; ///< whose temperatures stay
   EffectsWanted effects;
+  int every = 1;        ///< time steps that a step of temperature spans
+  bool sampled = false; ///< what contacts make is found in those time steps only
 
   /// Those whose form and data the words give.
   [[nodiscard]] EffectSet available() const;

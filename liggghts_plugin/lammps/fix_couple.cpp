@@ -119,7 +119,7 @@ void FixCouple::find_heat() {
   if (!heat)
     throw ConfigError("the case has an [energy] table, but particles have no temperature: define "
                       "fix granflux/heat");
-  heat->leave_steps_to_gas();
+  heat->leave_steps_to_gas(gas_->couple_every());
   host_->set_heat(*heat, *heat_states_);
 }
 

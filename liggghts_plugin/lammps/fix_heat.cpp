@@ -26,6 +26,7 @@
 
 #include <granflux/cfd/vec3.hpp>
 
+#include "contact_times.hpp"
 #include "driver/restart_values.hpp"
 #include "fix_couple.hpp"
 #include "particle_subset/temperature_step.hpp"
@@ -159,6 +160,10 @@ void FixHeat::init() {
 }
 
 void FixHeat::setup(int) {
+  guarded([&] {
+    if (touching_)
+      check_heat_every([&] { return contact_times_of(*lmp); });
+  });
   open_books();
 }
 
@@ -239,6 +244,8 @@ void FixHeat::post_force(int) {
 }
 
 void FixHeat::step(coupling::HeatState* gas) {
+  if (!steps_now())
+    return;
   const auto n = std::size_t(atom->nlocal);
   rate_.assign(n, 0);
   no_source_.resize(n);
@@ -258,10 +265,10 @@ void FixHeat::step(coupling::HeatState* gas) {
                                                 .groups = atom->mask,
                                                 .gas = gas};
   const auto stepped = particle_subset::step_temperature(
-      heated, words_.capacity, held(), update->dt, {.begin = 0, .end = atom->nlocal});
+      heated, words_.capacity, held(), step_of_temperature(), {.begin = 0, .end = atom->nlocal});
   powers.convection = stepped.convection;
   powers.held = stepped.held;
-  book(powers);
+  book(powers, step_of_temperature());
 }
 
 void FixHeat::check_time_step() const {
@@ -270,7 +277,7 @@ void FixHeat::check_time_step() const {
     largest =
         std::max(largest, contacts_[std::size_t(i)].conductance /
                               (atom->rmass[i] * words_.capacity[std::size_t(atom->type[i]) - 1]));
-  refuse_long_step(update->dt * largest);
+  refuse_long_step(step_of_temperature() * largest);
 }
 
 driver::WarmParticles FixHeat::particles() const {

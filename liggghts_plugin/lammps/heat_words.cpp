@@ -40,8 +40,8 @@ void refuse_what_lammps_has_not(const std::string& key, const std::string& value
                       "speed (with pair_style gran/hooke) or off");
   if (key == "damping" && value == "on")
     throw ConfigError("damping on: LAMMPS does not hand its dashpots on one by one: must be off");
-  if (key == "wall_share" || key == "gas_gap" || key == "gas_layer" || key == "least_gap" ||
-      key == "radiation")
+  if (key == "wall_share" || key == "work" || key == "gas_gap" || key == "gas_layer" ||
+      key == "least_gap" || key == "radiation")
     throw ConfigError(fmt::format("{}: with LIGGGHTS only (program granflux)", key));
 }
 
@@ -116,6 +116,12 @@ HeatWords read_heat_words(std::span<char*> all_words, int types) {
     shared.push_back(word.data());
   read.options = driver::read_heat_options(shared);
   read.options.contacts.damping = false; // LAMMPS does not hand its dashpots on
+  if (read.options.every > 1 &&
+      read.options.contacts.friction != particle_subset::FrictionHeat::off)
+    throw ConfigError(
+        fmt::format("heat_every {}: needs friction off: the heat of friction is found "
+                    "contact by contact in every time step",
+                    read.options.every));
   const auto need = [](const Property& property, const char* why) {
     if (property.values.empty())
       throw ConfigError(fmt::format("keyword {} is missing: {}", property.key, why));

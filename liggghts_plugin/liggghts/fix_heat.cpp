@@ -30,6 +30,7 @@
 
 #include <granflux/coupling/contact_heat/conductance.hpp>
 
+#include "contact_times.hpp"
 #include "fix_couple.hpp"
 #include "particle_subset/fix_wall_gran.hpp"
 #include "particle_subset/pair_gran.hpp"
@@ -96,6 +97,8 @@ void FixHeat::post_create() {
   source_ = property("heatSource", 1, true, false, 0);
   if (!options_.effects.given() || options_.available().has(driver::Effect::friction))
     parted_ = property("granflux_parted_heat", 1, true, false, 0);
+  if (options_.every > 1 && !options_.sampled && options_.available().has(driver::Effect::damping))
+    kept_damping_ = property("granflux_kept_damping", 1, true, false, 0);
   if (options_.effects.by != driver::EffectsWanted::By::numbers)
     make_properties();
 }
@@ -183,6 +186,7 @@ void FixHeat::setup(int) {
   guarded([&] {
     if (touches())
       link_walls();
+    check_heat_every([&] { return contact_times_of(*lmp); });
     open_books();
   });
 }
@@ -254,18 +258,29 @@ void FixHeat::link_walls() {
 }
 
 particle_subset::HeatOfContacts FixHeat::heat_of_contacts() {
+  const bool keeps = !options_.sampled;
   return {.law = &law_,
           .arrays = {.temperature = temperature_->vector_atom,
                      .rate = heat_flux_->vector_atom,
                      .sums = sums_.data(),
-                     .shown = shown()}};
+                     .shown = shown(),
+                     .kept = {.now = !steps_now(),
+                              .dt = update->dt,
+                              .friction = keeps ? parted_heat() : nullptr,
+                              .damping = keeps && options_.contacts.damping && kept_damping_
+                                             ? kept_damping_->vector_atom
+                                             : nullptr},
+                     .part_of_step = keeps ? 1. / options_.every : 1}};
 }
 
-/// What is received of each kind: it costs more than the sum. Where it can be seen, and in the
-/// first and last step of a run.
+/// What is received of each kind: it costs more than the sum. Where it can be seen, in the last
+/// step of temperature before or at output, and in the first and last of a run.
 bool FixHeat::wants_details() const {
-  const auto now = update->ntimestep;
-  return now == output->next || now == update->laststep || now == update->firststep + 1;
+  if (!steps_now())
+    return false;
+  const auto now = update->ntimestep, next = now + options_.every;
+  return output->next < next || update->laststep < next ||
+         now <= update->firststep + options_.every;
 }
 
 particle_subset::HeatShown FixHeat::shown() const {
@@ -283,9 +298,11 @@ particle_subset::HeatShown FixHeat::shown() const {
 void FixHeat::pre_force(int) {
   if (rests())
     return;
+  std::ranges::fill(sums_, HeatSums{});
+  if (!steps_now())
+    return;
   if (options_.available().any())
     temperature_->do_forward_comm();
-  std::ranges::fill(sums_, HeatSums{});
   if (!touches()) // else the contacts clear it
     std::fill_n(heat_flux_->vector_atom, atom->nlocal, 0.0);
   if (const particle_subset::HeatShown shown = this->shown(); shown.wanted()) {
@@ -344,27 +361,45 @@ double* FixHeat::parted_heat() {
                                                                           : parted_->vector_atom;
 }
 
-/// What springs of contacts held that had ended when the lists were built: in the step of the
-/// build, or the first one after that of a run's setup.
-void FixHeat::receive_parted_heat() {
-  if (!parted_heat() || neighbor->lastcall + 1 < update->ntimestep)
+/// What contacts have made since the last step of temperature, and what springs of contacts held
+/// that had ended when the lists were built: in the step of the build, or the first one after that
+/// of a run's setup.
+void FixHeat::receive_kept_heat() {
+  if (options_.every == 1 && neighbor->lastcall + 1 < update->ntimestep)
     return;
   const particle_subset::HeatShown shown = this->shown();
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const double power = parted_->vector_atom[i] / update->dt;
-    parted_->vector_atom[i] = 0;
-    heat_flux_->vector_atom[i] += power;
-    sums_.front().friction += power;
-    if (shown.wanted()) {
-      shown.contacts[i].made += power;
-      shown.details[i].friction += power;
+  const auto receive = [&](double* kept, double HeatSums::*sum, double HeatDetails::*detail) {
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double power = kept[i] / step_of_temperature();
+      kept[i] = 0;
+      heat_flux_->vector_atom[i] += power;
+      sums_.front().*sum += power;
+      if (shown.wanted()) {
+        shown.contacts[i].made += power;
+        shown.details[i].*detail += power;
+      }
     }
-  }
+  };
+  if (double* const friction = parted_heat())
+    receive(friction, &HeatSums::friction, &HeatDetails::friction);
+  if (options_.contacts.damping && kept_damping_)
+    receive(kept_damping_->vector_atom, &HeatSums::damping, &HeatDetails::damping);
+}
+
+/// What goes into walls is in no temperature: it is booked in the time step in which it is found.
+void FixHeat::book_heat_of_walls() {
+  double power = 0;
+  for (const HeatSums& part : sums_)
+    power += part.to_walls;
+  book_for_walls(power, options_.sampled ? step_of_temperature() : update->dt);
 }
 
 void FixHeat::step(coupling::HeatState* gas) {
   const double start = MPI_Wtime();
-  receive_parted_heat();
+  book_heat_of_walls();
+  if (!steps_now())
+    return;
+  receive_kept_heat();
   if (options_.near.any())
     subsets_->add_near_heat(near_law_, heat_of_contacts().arrays);
   const double between = MPI_Wtime();
@@ -378,7 +413,7 @@ void FixHeat::step(coupling::HeatState* gas) {
                                                    .gas = gas};
   if (wants_details())
     check_time_step(particles);
-  const double dt = update->dt;
+  const double dt = step_of_temperature();
   std::vector<particle_subset::StepPowers> parts(sums_.size());
   particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
     parts[std::size_t(omp_get_thread_num())] =
@@ -398,16 +433,17 @@ void FixHeat::step(coupling::HeatState* gas) {
         .source = stepped.source,
         .to_walls = contacts.to_walls,
         .held = stepped.held,
-        .radiation = contacts.radiation});
+        .radiation = contacts.radiation},
+       dt);
   near_seconds_ += between - start;
   step_seconds_ += MPI_Wtime() - between;
-  particle_steps_ += atom->nlocal;
+  particle_steps_ += double(options_.every) * atom->nlocal;
 }
 
 void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles) const {
   if (!details_)
     return;
-  refuse_long_step(conduction_number(shown(), particles, materials_.capacity, update->dt,
+  refuse_long_step(conduction_number(shown(), particles, materials_.capacity, step_of_temperature(),
                                      {.begin = 0, .end = atom->nlocal}));
 }
 

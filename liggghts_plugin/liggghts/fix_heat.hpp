@@ -69,7 +69,8 @@ private:
   void link_walls();
   void conduct_by_shape();
   void step(coupling::HeatState* gas) override;
-  void receive_parted_heat();
+  void book_heat_of_walls();
+  void receive_kept_heat();
   void check_time_step(const particle_subset::HeatedParticles& particles) const;
   [[nodiscard]] particle_subset::HeatShown shown() const;
   [[nodiscard]] const driver::HeatOptions& options() const override { return options_; }
@@ -88,7 +89,8 @@ private:
   // Kept by LIGGGHTS for each particle.
   LAMMPS_NS::FixPropertyAtom *temperature_ = nullptr, *carry_ = nullptr, *heat_flux_ = nullptr,
                              *source_ = nullptr, *contacts_ = nullptr, *details_ = nullptr,
-                             *walls_ = nullptr, *near_ = nullptr, *parted_ = nullptr;
+                             *walls_ = nullptr, *near_ = nullptr, *parted_ = nullptr,
+                             *kept_damping_ = nullptr;
   std::vector<std::string> own_properties_;
 
   particle_subset::PairGran* subsets_ = nullptr; // in whose contact loops heat is made, or null:

@@ -41,6 +41,8 @@ class BadInput(HostTest):
             (f"{GOOD} gas_layer 0.3", "gas_layer is of no use without gas_gap"),
             (f"{GOOD} gas_gap 0.03 gas_layer 2", "gas_layer 2", "0.001 to 1"),
             (f"{GOOD} gas_gap 0.03 least_gap 0", "least_gap 0", "1e-12 to 1e-3 m"),
+            (f"{GOOD} heat_every 0", "heat_every 0", "whole number from 1 to 1000"),
+            (f"{GOOD} heat_every 2.5", "heat_every 2.5", "whole number"),
             (f"{GOOD} radiation on", "radiation on", "temperature of the surroundings"),
             (f"{GOOD} radiation 300", "needs fix property/global emissivity"),
         ):
@@ -93,6 +95,17 @@ class BadInput(HostTest):
             )
             for text in ("WARNING", *texts):
                 self.assertIn(text, output)
+
+    def test_too_few_steps_of_temperature(self):
+        """A collision here lasts 568 time steps."""
+        self.write("data.spheres", data_file([(1, 1e-3, 2000, (0.0, 0.0, 0.0), (0.1, 0, 0), (0, 0, 0))]))
+        text = head(dt=4e-8) + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 heat_every {}\nrun 1\n"
+        code, output = self.start(text.format(900))
+        self.assertNotEqual(code, 0)
+        for part in ("heat_every 900", "must be no longer", "at most 568 time steps"):
+            self.assertIn(part, output)
+        self.assertIn("WARNING: granflux: heat_every 400", self.run_script(text.format(400)))
+        self.assertNotIn("WARNING: granflux: heat_every", self.run_script(text.format(250)))
 
     def test_too_long_a_step(self):
         self.write(

@@ -106,7 +106,7 @@ private:
     gather(rows, count);
     evaluate(batch_, count, batch_constants_, dt_, heat_);
     if constexpr (Heat::acts)
-      heat_.evaluate(batch_, count, own_);
+      heat_.add(batch_, count, own_, p_.type);
     scatter<side>(rows, count);
   }
 
@@ -126,8 +126,6 @@ private:
         batch_constants_.set(k, constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1]);
       if constexpr (Law::history > 0)
         get_history(&rows.history[std::size_t(batch_.entry[k]) * Law::history], k);
-      if constexpr (Heat::acts)
-        heat_.gather(k, i, j, p_.type);
     }
     if (p_.frozen_group)
       freeze(count);
@@ -178,8 +176,6 @@ private:
     p_.force[i] += batch_.force.at(k);
     if constexpr (Law::turns)
       p_.torque[i] += batch_.torque_i.at(k);
-    if constexpr (Heat::acts)
-      heat_.rate(i) += heat_.rate_of_i(k);
   }
 
   void add_to_j(int k) {
@@ -187,8 +183,6 @@ private:
     p_.force[j] -= batch_.force.at(k);
     if constexpr (Law::turns)
       p_.torque[j] += batch_.torque_j.at(k);
-    if constexpr (Heat::acts)
-      heat_.add_to_j(j, k);
   }
 
   void put_memory(ContactRows& rows, int k) const {

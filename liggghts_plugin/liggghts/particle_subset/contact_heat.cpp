@@ -68,10 +68,11 @@ double ContactHeat::conductance_at_wall(const PairConstants& pair, double radius
 void HeatOfWall::add(int p, int type, int wall_type, double radius, double overlap, double force,
                      const Dissipation& made) const {
   const ContactHeat& law = *contacts.law;
+  const bool conducts = temperature && !contacts.arrays.kept.now;
   const double conductance =
-      temperature ? law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force) : 0;
+      conducts ? law.conductance_at_wall(law.pair(type, wall_type), radius, overlap, force) : 0;
   const double conduction =
-      temperature ? conductance * (*temperature - contacts.arrays.temperature[p]) : 0;
+      conducts ? conductance * (*temperature - contacts.arrays.temperature[p]) : 0;
   give(p, conduction, conductance, law.friction(made), law.options().damping ? made.damping : 0);
 }
 
@@ -80,26 +81,33 @@ void HeatOfWall::add_parted(int p, double power) const {
     give(p, 0, 0, power, 0);
 }
 
-void HeatOfWall::give(int p, double conduction, double conductance, double friction,
-                      double damping) const {
+void HeatOfWall::give(int p, double conduction, double conductance, double all_friction,
+                      double all_damping) const {
   const HeatArrays& arrays = contacts.arrays;
-  const double share = contacts.law->options().wall_share;
-  const double to_particle = (1 - share) * (friction + damping);
-  const double to_wall = share * (friction + damping);
-  arrays.rate[p] += conduction + to_particle;
-
   HeatSums& sums = arrays.sums[omp_get_thread_num()];
-  sums.walls += conduction;
-  sums.friction += (1 - share) * friction;
-  sums.damping += (1 - share) * damping;
+  const double share = contacts.law->options().wall_share;
+  const double to_wall = share * (all_friction + all_damping);
   sums.to_walls += to_wall;
+  if (const KeptHeat& kept = arrays.kept; kept.now) {
+    if (kept.friction)
+      kept.friction[p] += kept.dt * (1 - share) * all_friction;
+    if (kept.damping)
+      kept.damping[p] += kept.dt * (1 - share) * all_damping;
+    return;
+  }
+  const double friction = arrays.part_of_step * (1 - share) * all_friction;
+  const double damping = arrays.part_of_step * (1 - share) * all_damping;
+  arrays.rate[p] += conduction + friction + damping;
+  sums.walls += conduction;
+  sums.friction += friction;
+  sums.damping += damping;
 
   if (!arrays.shown.wanted())
     return;
-  arrays.shown.contacts[p].made += to_particle;
+  arrays.shown.contacts[p].made += friction + damping;
   HeatDetails& details = arrays.shown.details[p];
-  details.friction += (1 - share) * friction;
-  details.damping += (1 - share) * damping;
+  details.friction += friction;
+  details.damping += damping;
   details.conductance += conductance;
   WallHeatRates& walls = arrays.shown.walls[p];
   walls.conduction += conduction;

@@ -51,12 +51,24 @@ struct HeatShown {
   [[nodiscard]] bool wanted() const { return details != nullptr; }
 };
 
+/// Heat made in contacts in time steps between two steps of temperature, exact in each: kept until
+/// the particles receive it.
+struct KeptHeat {
+  bool now = false;                               ///< this time step is one of those
+  double dt = 0;                                  ///< of the time step [s]
+  double *friction = nullptr, *damping = nullptr; ///< of owned particles [J]: added to
+};
+
 /// Arrays of the host, borrowed.
 struct HeatArrays {
   const double* temperature = nullptr; ///< of owned particles and ghosts [K]
   double* rate = nullptr;              ///< that owned particles receive [W]: added to
   HeatSums* sums = nullptr;            ///< of each thread: added to
   HeatShown shown;                     ///< of owned particles: added to; null where not asked for
+  KeptHeat kept;
+  /// What the power of this time step counts in the rate of a step of temperature: one over the
+  /// number of time steps that it spans.
+  double part_of_step = 1;
 };
 
 /// How the heat of friction is found: not at all, from the slider's own work, or as
@@ -126,6 +138,10 @@ private:
 struct HeatOfContacts {
   const ContactHeat* law = nullptr;
   HeatArrays arrays;
+  /// Nothing is conducted in this time step, and nothing made that counts.
+  [[nodiscard]] bool rests() const {
+    return arrays.kept.now && !arrays.kept.friction && !arrays.kept.damping;
+  }
 };
 
 /// Heat at one wall; without a temperature nothing is conducted.
@@ -141,6 +157,7 @@ struct HeatOfWall {
   void add_parted(int p, double power) const;
 
 private:
+  /// `friction`, `damping`: all that is made.
   void give(int p, double conduction, double conductance, double friction, double damping) const;
 };
 

@@ -275,7 +275,7 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
                 .groups = atom->mask,
                 .force = rows(atom->f),
                 .torque = rows(atom->torque)};
-  makes_heat_ = heat_ != nullptr;
+  makes_heat_ = heat_ && !heat_->heat_of_contacts().rests();
   if (meshwall_ == 1) {
     for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
       begin_mesh(mesh);

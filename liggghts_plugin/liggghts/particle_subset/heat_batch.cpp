@@ -33,6 +33,20 @@ HeatBatch<made>::HeatBatch(const HeatOfContacts& heat)
     set_constants(k, law_.pair(1, 1));
 }
 
+template <HeatMade made>
+void HeatBatch<made>::set_constants(int k, const ContactHeat::PairConstants& pair) {
+  per_radius_[k] = pair.conductance_per_radius;
+  inverse_modulus_[k] = pair.inverse_modulus;
+  overlap_ratio_[k] = pair.overlap_ratio;
+  share_[k] = pair.share;
+}
+
+template <HeatMade made>
+void HeatBatch<made>::set_constants(const ContactBatch& b, int count, const int* type) {
+  for (int k = 0; k < count; ++k)
+    set_constants(k, law_.pair(type[b.i[k]], type[b.j[k]]));
+}
+
 /// The columns of friction and damping become what the options count of them.
 template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_groups) {
   const FrictionHeat friction = law_.options().friction;
@@ -45,10 +59,51 @@ template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_grou
     std::fill_n(damping_, whole_groups, 0.0);
 }
 
+/// What the pairs' columns of rates hold, to the particles. Without branches where all are own:
+/// that half of the contacts slide would be guessed wrongly half of the time.
+template <HeatMade made>
+void HeatBatch<made>::give(double* to, const ContactBatch& b, int count, bool all_own,
+                           Range own) const {
+  if (all_own) {
+    for (int k = 0; k < count; ++k) {
+      to[b.i[k]] += rate_i_[k];
+      to[b.j[k]] += rate_j_[k];
+    }
+    return;
+  }
+  for (int k = 0; k < count; ++k) {
+    if (own.holds(b.i[k]))
+      to[b.i[k]] += rate_i_[k];
+    if (own.holds(b.j[k]))
+      to[b.j[k]] += rate_j_[k];
+  }
+}
+
+template <HeatMade made>
+void HeatBatch<made>::keep(const Column& power, double* energy, const ContactBatch& batch,
+                           int count, Range own) {
+  for (int k = 0; k < count; ++k) {
+    const double heat = arrays_.kept.dt * power[k];
+    rate_i_[k] = share_[k] * heat;
+    rate_j_[k] = heat - rate_i_[k];
+  }
+  give(energy, batch, count, all_are(own, batch, count), own);
+}
+
+template <HeatMade made>
+void HeatBatch<made>::keep(const ContactBatch& batch, int count, Range own) {
+  if (arrays_.kept.friction)
+    keep(friction_, arrays_.kept.friction, batch, count, own);
+  if constexpr (made == HeatMade::by_any)
+    if (arrays_.kept.damping)
+      keep(damping_, arrays_.kept.damping, batch, count, own);
+}
+
 template <HeatMade made>
 template <class Radius>
 [[gnu::flatten]] void HeatBatch<made>::exchange(const Radius& radius, const ContactBatch& b,
                                                 int whole_groups) {
+  const double part = arrays_.part_of_step;
 #pragma GCC ivdep
   for (int k = 0; k < whole_groups; ++k) {
     coupling::ContactShape shape = coupling::shape_of_pair(
@@ -59,70 +114,89 @@ template <class Radius>
     double heat = friction_[k];
     if constexpr (made == HeatMade::by_any)
       heat += damping_[k];
+    heat *= part;
     rate_i_[k] = conduction_[k] + share_[k] * heat;
     rate_j_[k] = heat - rate_i_[k];
   }
 }
 
 template <HeatMade made>
-void HeatBatch<made>::evaluate(const ContactBatch& batch, int count, Range own) {
+void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own, const int* type) {
   constexpr int lanes = ContactBatch::lanes;
   const int whole_groups = (count + lanes - 1) / lanes * lanes;
   if constexpr (made == HeatMade::by_any)
     count_what_is_made(whole_groups);
+  if (types_ > 1)
+    set_constants(batch, count, type);
+  if (arrays_.kept.now) {
+    keep(batch, count, own);
+    return;
+  }
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k)
+    warmer_[k] = arrays_.temperature[batch.j[k]] - arrays_.temperature[batch.i[k]];
+  std::fill(warmer_ + count, warmer_ + whole_groups, 0.0);
   if (law_.options().radius)
     std::visit([&](const auto& radius) { exchange(radius, batch, whole_groups); },
                *law_.options().radius);
   else
     exchange(NoRadius{}, batch, whole_groups);
-  sum_up(batch, count, own);
+  hand_on(batch, count, own);
   if (arrays_.shown.wanted())
     show(batch, count, own);
 }
 
-template <HeatMade made> void HeatBatch<made>::sum_up(const ContactBatch& b, int count, Range own) {
+/// To the particles, and to the sums.
+template <HeatMade made>
+void HeatBatch<made>::hand_on(const ContactBatch& b, int count, Range own) {
+  const bool all_own = all_are(own, b, count);
+  give(arrays_.rate, b, count, all_own, own);
+  const double part = arrays_.part_of_step;
   double conduction = 0, friction = 0, damping = 0;
-  if (all_are(own, b, count)) { // what one conducts to another adds up to nothing
+  if (all_own) { // what one conducts to another adds up to nothing
 #pragma omp simd reduction(+ : friction, damping)
     for (int k = 0; k < count; ++k) {
       friction += friction_[k];
       if constexpr (made == HeatMade::by_any)
         damping += damping_[k];
     }
-    sums_.friction += friction;
-    sums_.damping += damping;
-    return;
-  }
+  } else {
 #pragma omp simd reduction(+ : conduction, friction, damping)
-  for (int k = 0; k < count; ++k) {
-    const double own_i = own.holds(b.i[k]) ? 1 : 0, own_j = own.holds(b.j[k]) ? 1 : 0;
-    const double share = own_i * share_[k] + own_j * (1 - share_[k]);
-    conduction += (own_i - own_j) * conduction_[k];
-    friction += share * friction_[k];
-    if constexpr (made == HeatMade::by_any)
-      damping += share * damping_[k];
+    for (int k = 0; k < count; ++k) {
+      const double own_i = own.holds(b.i[k]) ? 1 : 0, own_j = own.holds(b.j[k]) ? 1 : 0;
+      const double share = own_i * share_[k] + own_j * (1 - share_[k]);
+      conduction += (own_i - own_j) * conduction_[k];
+      friction += share * friction_[k];
+      if constexpr (made == HeatMade::by_any)
+        damping += share * damping_[k];
+    }
   }
   sums_.conduction += conduction;
-  sums_.friction += friction;
-  sums_.damping += damping;
+  sums_.friction += part * friction;
+  sums_.damping += part * damping;
 }
 
 template <HeatMade made>
 void HeatBatch<made>::show(const ContactBatch& batch, int count, Range own) const {
-  const auto add = [&](int particle, int k, double share, double conduction) {
+  const double part = arrays_.part_of_step;
+  const auto add_to = [&](int particle, int k, double share, double conduction) {
     if (!own.holds(particle))
       return;
+    const double friction = part * share * friction_[k];
+    double damping = 0;
+    if constexpr (made == HeatMade::by_any)
+      damping = part * share * damping_[k];
     ContactHeatRates& contacts = arrays_.shown.contacts[particle];
     contacts.conduction += conduction;
-    contacts.made += share * (friction_[k] + damping_[k]);
+    contacts.made += friction + damping;
     HeatDetails& details = arrays_.shown.details[particle];
-    details.friction += share * friction_[k];
-    details.damping += share * damping_[k];
+    details.friction += friction;
+    details.damping += damping;
     details.conductance += conductance_[k];
   };
   for (int k = 0; k < count; ++k) {
-    add(batch.i[k], k, share_[k], conduction_[k]);
-    add(batch.j[k], k, 1 - share_[k], -conduction_[k]);
+    add_to(batch.i[k], k, share_[k], conduction_[k]);
+    add_to(batch.j[k], k, 1 - share_[k], -conduction_[k]);
   }
 }
 

@@ -33,13 +33,7 @@ public:
   HeatBatch(const HeatBatch&) = delete;
   HeatBatch& operator=(const HeatBatch&) = delete;
 
-  /// Before the forces: the partners of pair k.
-  void gather(int k, int i, int j, const int* type) {
-    warmer_[k] = arrays_.temperature[j] - arrays_.temperature[i];
-    if (types_ > 1)
-      set_constants(k, law_.pair(type[i], type[j]));
-  }
-  /// With the forces.
+  /// With the forces, of whole groups of lanes.
   template <bool rolls> void set(int k, const ContactForce& f) {
     pressing_[k] = f.pressing;
     overlap_[k] = f.overlap;
@@ -54,36 +48,34 @@ public:
       rolling_[k] = f.heat.rolling;
     }
   }
-  /// After the forces, of which some particles are `own`.
-  void evaluate(const ContactBatch& batch, int count, Range own);
-
-  [[nodiscard]] double& rate(int particle) const { return arrays_.rate[particle]; }
-  [[nodiscard]] double rate_of_i(int k) const { return rate_i_[k]; }
-  void add_to_j(int j, int k) const { arrays_.rate[j] += rate_j_[k]; }
+  /// After the forces: what the first `count` pairs, of which some particles are `own`, conduct and
+  /// make; in a time step between two steps of temperature what they make is kept.
+  void add(const ContactBatch& batch, int count, Range own, const int* type);
 
 private:
-  void set_constants(int k, const ContactHeat::PairConstants& pair) {
-    per_radius_[k] = pair.conductance_per_radius;
-    inverse_modulus_[k] = pair.inverse_modulus;
-    overlap_ratio_[k] = pair.overlap_ratio;
-    share_[k] = pair.share;
-  }
+  void set_constants(const ContactBatch& batch, int count, const int* type);
+  void set_constants(int k, const ContactHeat::PairConstants& pair);
   void count_what_is_made(int whole_groups);
+  void keep(const ContactBatch& batch, int count, Range own);
+  void keep(const ContactBatch::Column& power, double* energy, const ContactBatch& batch, int count,
+            Range own);
+  void give(double* to, const ContactBatch& batch, int count, bool all_own, Range own) const;
   template <class Radius>
   void exchange(const Radius& radius, const ContactBatch& batch, int whole_groups);
-  void sum_up(const ContactBatch& batch, int count, Range own);
+  void hand_on(const ContactBatch& batch, int count, Range own);
   void show(const ContactBatch& batch, int count, Range own) const;
 
   using Column = ContactBatch::Column;
   const ContactHeat& law_;
   const HeatArrays arrays_;
   const int types_;
-  HeatSums sums_;               // of this object
-  alignas(64) Column warmer_{}; // j than i
-  alignas(64) Column per_radius_{}, inverse_modulus_{}, overlap_ratio_{}, share_{};
-  alignas(64) Column pressing_{}, overlap_{}, reduced_radius_{};
-  alignas(64) Column friction_{}, slider_force_{}, slip_squared_{}, rolling_{}, damping_{};
-  alignas(64) Column conductance_{}, conduction_{}, rate_i_{}, rate_j_{};
+  HeatSums sums_; // of this object
+  // Written before they are read, in every batch: to clear them would cost more than some laws.
+  alignas(64) Column warmer_; // j than i
+  alignas(64) Column per_radius_, inverse_modulus_, overlap_ratio_, share_;
+  alignas(64) Column pressing_, overlap_, reduced_radius_;
+  alignas(64) Column friction_, slider_force_, slip_squared_, rolling_, damping_;
+  alignas(64) Column conductance_, conduction_, rate_i_, rate_j_;
 };
 
 extern template class HeatBatch<HeatMade::by_slider>;

@@ -59,12 +59,12 @@ public:
 private:
   void with_forces(const Particles& particles, ThreadContacts& contacts, double dt,
                    const HeatOfContacts* heat, auto&& work) const {
-    if (heat && heat->law->options().slider_alone())
-      with_heat<HeatBatch<HeatMade::by_slider>>(particles, contacts, dt, *heat, work);
-    else if (heat)
-      with_heat<HeatBatch<HeatMade::by_any>>(particles, contacts, dt, *heat, work);
-    else
+    if (!heat || heat->rests())
       with_heat<WithoutHeat>(particles, contacts, dt, {}, work);
+    else if (heat->law->options().slider_alone())
+      with_heat<HeatBatch<HeatMade::by_slider>>(particles, contacts, dt, *heat, work);
+    else
+      with_heat<HeatBatch<HeatMade::by_any>>(particles, contacts, dt, *heat, work);
   }
 
   template <class Heat>

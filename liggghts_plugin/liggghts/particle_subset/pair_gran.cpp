@@ -189,7 +189,10 @@ void PairGran::own_work(int thread, Range block) {
   kernel_->add_upper(particles(), lists_.of(thread), block, update->dt, heat());
 }
 
+/// Rates of the last step of temperature stay until there is another.
 void PairGran::clear_heat(Range range) const {
+  if (heat_now_.arrays.kept.now)
+    return;
   std::fill(heat_now_.arrays.rate + range.begin, heat_now_.arrays.rate + range.end, 0.0);
 }
 
