@@ -27,10 +27,11 @@ install(FILES "${CMAKE_BINARY_DIR}/GranFluxConfig.cmake"
               "${CMAKE_BINARY_DIR}/GranFluxConfigVersion.cmake" cmake/FindCGNS.cmake
               cmake/FindHYPRE.cmake DESTINATION "${granflux_cmake_folder}")
 
-install(FILES README.md CHANGELOG.md DESTINATION "${granflux_doc_folder}")
-install(FILES LICENSE DESTINATION "${granflux_doc_folder}" RENAME copyright)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${granflux_doc_folder}")
+install(FILES LICENSE DESTINATION "${granflux_doc_folder}" RENAME copyright) # Debian's name
 install(DIRECTORY LICENSES docs DESTINATION "${granflux_doc_folder}")
 install(DIRECTORY examples DESTINATION "${granflux_doc_folder}"
+        USE_SOURCE_PERMISSIONS # run.sh and plot.py are programs
         # what runs leave behind
         PATTERN post EXCLUDE
         PATTERN results EXCLUDE

@@ -27,11 +27,12 @@ def start(results, ranks):
     """Particles of each rank (n, 3), in the rank's order."""
     for old in (results / "post").glob("owners.*.txt"):
         old.unlink()
-    command = ["mpirun", "-np", str(ranks), "granflux", "-in", "in.owners", "-log", "log.owners", *sys.argv[2:]]
+    command = ["mpirun", "--oversubscribe", "-np", str(ranks),
+               "granflux", "-in", "in.owners", "-log", "log.owners", *sys.argv[2:]]
     with open(results / "owners.out", "w") as out:
         subprocess.run(command, cwd=results, check=True, stdout=out, env={**os.environ, "OMP_NUM_THREADS": "1"})
-    return [np.loadtxt(results / f"post/owners.{rank}.txt", skiprows=9, usecols=(1, 2, 3), ndmin=2)
-            for rank in range(ranks)]
+    rows = [(results / f"post/owners.{rank}.txt").read_text().splitlines()[9:] for rank in range(ranks)]
+    return [np.array([row.split()[1:4] for row in of_rank], float).reshape(-1, 3) for of_rank in rows]
 
 
 def by_gas_block(results, x):

@@ -152,6 +152,15 @@ class Checks(unittest.TestCase):
         self.write("page.md", "text\n")
         self.assert_one_fault(check(), "on no page")
 
+    def test_a_command_that_is_run_and_fails(self):
+        self.write("CMakePresets.json", '{"configurePresets": []}')
+        self.write("tests/meta/commands.txt", "mkdir a && cd a -> runs\ncp ../in.b ../c . -> runs after touch ../c\n")
+        page = "`in.b`, a file\nof two:\n\n```\none\n```\n\n    mkdir a && cd a\n    cp ../in.b ../c .\n"
+        self.write("page.md", page)
+        self.assertEqual(commands.faults_of(self.root, self.root, "false"), [])
+        self.write("page.md", page.replace("`in.b`", "`in.a`"))
+        self.assert_one_fault(commands.faults_of(self.root, self.root, "false"), "../in.b")
+
     def test_a_script_that_cannot_be_run(self):
         (self.root / "run").chmod(0o644)
         self.assert_one_fault(registered.faults_of(self.root), "run: not executable")

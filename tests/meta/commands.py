@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The GranFlux developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every command line of a page can be given as it stands: examples and their options exist, presets exist, names of
-tests are those of tests, programs start. What only a whole run would show is in commands.txt, with the test that
-makes it or the reason why none does.
+"""Every command line of a page can be given as it stands: what is quick is run, examples and their options exist,
+presets exist, names of tests are those of tests, programs start. commands.txt says which are run, and of those that
+can neither be run here nor be looked at which test makes the run or why none does.
 
 Usage: commands.py ROOT BUILD CTEST
 """
@@ -15,6 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import run_commands
 from links import pages
 from source_tree import report
 
@@ -59,6 +60,11 @@ def exceptions_of(text):
     return {command.strip(): reason.strip() for command, _, reason in pairs}
 
 
+def preparation(reason):
+    """Shell line that a command needs before it is run, None where it is not to be run."""
+    return told.group(1) or "" if (told := re.fullmatch(r"runs(?: after (.*))?", reason)) else None
+
+
 def output_of(words, cwd):
     done = subprocess.run(words, cwd=cwd, capture_output=True, text=True, timeout=60, check=False)
     return done.stdout + done.stderr if done.returncode == 0 else None
@@ -87,8 +93,6 @@ class Checker:
             return self.named_presets(words)
         if words[0].startswith("tests/") and os.access(self.root / words[0], os.X_OK):
             return self.options([words[0], *[w for w in words[1:2] if re.fullmatch(r"\w+", w)]], words)
-        if words[0] in ("granflux", "granflux_lammps") and words[1:] == ["-version"]:
-            return None  # install.tree_and_package
         for program in ("granflux_cfd", "granflux-regress", "granflux_study"):
             if program in words[:4]:
                 return self.options([str(self.build / "bin" / program)], words)
@@ -123,13 +127,16 @@ def faults_of(root, build, ctest):
     exceptions = exceptions_of((root / "tests/meta/commands.txt").read_text())
     faults, used = [], set()
     for command, reason in exceptions.items():
-        if (test := re.match(r"test (\S+)", reason)) and test.group(1) not in checker.tests:
+        if (test := re.search(r"\btest ([\w.]+)$", reason)) and test.group(1) not in checker.tests:
             faults.append(f"tests/meta/commands.txt: {command}: there is no test {test.group(1)}")
     for page in pages(root):
+        to_run = []
         for number, command in commands_of(page.read_text()):
             where = f"{page.relative_to(root)}:{number}: {command}"
             if command in exceptions:
                 used.add(command)
+                if (before := preparation(exceptions[command])) is not None:
+                    to_run.append((command, before))
                 continue
             try:
                 fault = checker.fault(command)
@@ -137,9 +144,11 @@ def faults_of(root, build, ctest):
                 fault = "neither checked nor in tests/meta/commands.txt"
             if fault:
                 faults.append(f"{where}: {fault}")
+        if to_run and (fault := run_commands.fault_of(page.read_text(), to_run, root, build)):
+            faults.append(f"{page.relative_to(root)}: {fault}")
     faults += [f"tests/meta/commands.txt: {command}: on no page" for command in sorted(exceptions.keys() - used)]
     return faults
 
 
 if __name__ == "__main__":
-    sys.exit(report(faults_of(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3])))
+    sys.exit(report(faults_of(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3])))

@@ -12,7 +12,7 @@ def files(root):
     found = []
     for path in sorted(Path(root).iterdir()):
         if path.is_dir():
-            if path.name not in LEFT_OUT:
+            if path.name not in LEFT_OUT or path.parent.name == "docs":  # docs/results: pages
                 found += files(path)
         else:
             found.append(path)
