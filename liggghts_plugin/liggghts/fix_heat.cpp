@@ -32,7 +32,9 @@
 
 #include "contact_times.hpp"
 #include "fix_couple.hpp"
+#include "particle_subset/fix_nve_sphere.hpp"
 #include "particle_subset/fix_wall_gran.hpp"
+#include "particle_subset/half_kick_heat.hpp"
 #include "particle_subset/pair_gran.hpp"
 #include "particle_subset/team.hpp"
 #include "particle_subset/verlet.hpp"
@@ -147,6 +149,7 @@ void FixHeat::init() {
                                         materials_.overlap_ratio);
     near_law_ = particle_subset::NearHeat(options_.near, materials_.emissivity);
     sums_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+    at_walls_.resize(sums_.size());
     subsets_ = dynamic_cast<particle_subset::PairGran*>(force->pair);
     if (subsets_ && !subsets_->holds_history())
       subsets_ = nullptr;
@@ -259,18 +262,39 @@ void FixHeat::link_walls() {
 
 particle_subset::HeatOfContacts FixHeat::heat_of_contacts() {
   const bool keeps = !options_.sampled;
-  return {.law = &law_,
-          .arrays = {.temperature = temperature_->vector_atom,
-                     .rate = heat_flux_->vector_atom,
-                     .sums = sums_.data(),
-                     .shown = shown(),
-                     .kept = {.now = !steps_now(),
-                              .dt = update->dt,
-                              .friction = keeps ? parted_heat() : nullptr,
-                              .damping = keeps && options_.contacts.damping && kept_damping_
-                                             ? kept_damping_->vector_atom
-                                             : nullptr},
-                     .part_of_step = keeps ? 1. / options_.every : 1}};
+  particle_subset::HeatOfContacts heat{
+      .law = &law_,
+      .arrays = {.temperature = temperature_->vector_atom,
+                 .rate = heat_flux_->vector_atom,
+                 .sums = sums_.data(),
+                 .shown = shown(),
+                 .kept = {.now = !steps_now(),
+                          .dt = update->dt,
+                          .friction = keeps ? parted_heat() : nullptr,
+                          .damping = keeps && options_.contacts.damping && kept_damping_
+                                         ? kept_damping_->vector_atom
+                                         : nullptr},
+                 .part_of_step = keeps ? 1. / options_.every : 1,
+                 .resistances = {}}};
+  if (!heat.rests())
+    heat.arrays.resistances = resistances();
+  return heat;
+}
+
+/// Of what makes heat, as the options want it.
+particle_subset::Resistances FixHeat::resistances() {
+  const auto& contacts = options_.contacts;
+  const auto rows = [this](std::vector<particle_subset::Resistance>& of) {
+    if (of.size() < std::size_t(atom->nlocal))
+      of.resize(std::size_t(atom->nmax));
+    return of.data();
+  };
+  particle_subset::Resistances found{.walls = at_walls_.data()};
+  if (contacts.damping)
+    found.damping = rows(damping_);
+  if (contacts.friction != particle_subset::FrictionHeat::off && subsets_ && subsets_->rubs())
+    found.rubbing = rows(rubbing_);
+  return found;
 }
 
 /// What is received of each kind: it costs more than the sum. Where it can be seen, in the last
@@ -299,6 +323,8 @@ void FixHeat::pre_force(int) {
   if (rests())
     return;
   std::ranges::fill(sums_, HeatSums{});
+  for (auto& touches : at_walls_)
+    touches.clear();
   if (!steps_now())
     return;
   if (options_.available().any())
@@ -394,8 +420,45 @@ void FixHeat::book_heat_of_walls() {
   book_for_walls(power, options_.sampled ? step_of_temperature() : update->dt);
 }
 
+/// What resists motion in contacts works on the velocities at the step, half a step beyond those
+/// that forces are found with.
+void FixHeat::receive_half_kick_heat() {
+  const particle_subset::HeatOfWall walls{.contacts = heat_of_contacts(), .temperature = {}};
+  const particle_subset::HeatArrays& arrays = walls.contacts.arrays;
+  const particle_subset::Resistance* const damping = arrays.resistances.damping;
+  const particle_subset::Resistance* const rubbing = arrays.resistances.rubbing;
+  if (!damping && !rubbing &&
+      std::ranges::all_of(at_walls_, [](const auto& touches) { return touches.empty(); }))
+    return;
+  std::vector<std::pair<particle_subset::HalfKick, particle_subset::Spheres>> motions;
+  for (int i = 0; i < modify->nfix; ++i)
+    if (const auto* motion = dynamic_cast<const particle_subset::FixNveSphere*>(modify->fix[i]))
+      motions.emplace_back(motion->half_kick(), motion->spheres());
+  const auto heat = [&motions](int particle, const particle_subset::Resistance& resistance) {
+    double sum = 0;
+    for (const auto& [half, spheres] : motions)
+      sum += half_kick_heat(half, spheres, particle, resistance);
+    return sum;
+  };
+  if (damping || rubbing)
+    particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
+      HeatSums& sums = arrays.sums[omp_get_thread_num()];
+      for (int i = range.begin; i < range.end; ++i)
+        arrays.add_made(i, rubbing ? heat(i, rubbing[i]) : 0, damping ? heat(i, damping[i]) : 0,
+                        sums);
+    });
+  const bool friction = options_.contacts.friction != particle_subset::FrictionHeat::off;
+  // Of a thread's list all particles are its own.
+#pragma omp parallel for schedule(static, 1)
+  for (const auto& touches : at_walls_)
+    for (const particle_subset::WallResistance& touch : touches)
+      walls.add_made(touch.particle, friction ? heat(touch.particle, touch.rubbing) : 0,
+                     options_.contacts.damping ? heat(touch.particle, touch.damping) : 0);
+}
+
 void FixHeat::step(coupling::HeatState* gas) {
   const double start = MPI_Wtime();
+  receive_half_kick_heat();
   book_heat_of_walls();
   if (!steps_now())
     return;

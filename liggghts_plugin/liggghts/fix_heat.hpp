@@ -71,6 +71,8 @@ private:
   void step(coupling::HeatState* gas) override;
   void book_heat_of_walls();
   void receive_kept_heat();
+  [[nodiscard]] particle_subset::Resistances resistances();
+  void receive_half_kick_heat();
   void check_time_step(const particle_subset::HeatedParticles& particles) const;
   [[nodiscard]] particle_subset::HeatShown shown() const;
   [[nodiscard]] const driver::HeatOptions& options() const override { return options_; }
@@ -98,6 +100,9 @@ private:
   particle_subset::NearHeat near_law_;
   double reach_ = 0;                            // of near_law_ [m]
   std::vector<particle_subset::HeatSums> sums_; // of each thread, of this step
+  // Of each particle and of each thread, of this step.
+  std::vector<particle_subset::Resistance> damping_, rubbing_;
+  std::vector<std::vector<particle_subset::WallResistance>> at_walls_;
 };
 
 } // namespace granflux::liggghts

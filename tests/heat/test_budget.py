@@ -1,15 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The GranFlux developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is booked is what temperatures change by, what the sources come to, and what motion loses."""
+"""What is booked is what temperatures change by, and what the sources come to."""
 
 import math
-import random
 import unittest
 
 from host import CASE, HostTest, bed, couple, last_snapshot, thermo_rows
 from packed_box import data_file as box_file
 from packed_box import script
-from warm_spheres import data_file, head, mass, thermo, wall
+from warm_spheres import data_file, head, mass, thermo
 
 CAPACITIES = (700, 900)
 TEMPERATURES = 'dump t all custom {every} {name} id type mass f_Temp f_heatFlux\ndump_modify t sort id format "%d %d %.17g %.17g %.17g"\n'
@@ -232,159 +231,6 @@ class Insertion(HostTest):
         one = mass(1e-3, 2000) * 875 * 320
         self.assertAlmostEqual(row[3] / (10 * one), 1, delta=1e-12)
         self.assertAlmostEqual(row[4] / (11 * one), 1, delta=1e-12)
-
-
-class EnergyOfMotion(HostTest):
-    """With all that is dissipated turned into heat, the energy of motion and heat together is kept,
-    to the second order of the time step, or nearly."""
-
-    PAIRS = 25  # which meet at other parts of a time step each
-
-    def pairs(self, gap, one, other):
-        spheres = []
-        for n in range(self.PAIRS):
-            y, z = 5e-3 * (n // 5) - 1e-2, 5e-3 * (n % 5) - 1e-2
-            for (kind, diameter, density, (px, py), *motion), side in ((one, -1), (other, 1)):
-                x = px + side * gap * n / self.PAIRS / 2
-                spheres.append((kind, diameter, density, (x, y + py, z), *motion))
-        return spheres
-
-    def error(self, dt, time, spheres, stiffness, measure, walls):
-        self.write("data.spheres", data_file(spheres, (-2e-2,) * 3, (2e-2,) * 3))
-        steps = round(time / dt)
-        output = self.run_script(
-            head(dt=dt, **stiffness)
-            + "fix rf all property/global coefficientRollingFriction peratomtypepair 2 0.3 0.3 0.3 0.3\n"
-            + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 damping on conduction off\n"
-            + "compute rot all erotate/sphere\n"
-            + walls
-            + thermo("ke c_rot f_heat[16] f_heat[17] f_heat[20]", steps)
-            + f"run {steps}\nrun 1\n"  # which receives what springs held when contacts ended
-        )
-        first, last = thermo_rows(output)[0], thermo_rows(output)[-1]
-        lost = first[2] + first[3] - last[2] - last[3]
-        made = last[4] + last[5] + last[6]
-        self.assertGreater(last[4] if measure == "friction" else last[5], 0.2 * made)
-        return (lost - made) / lost
-
-    def errors(self, name, spheres, stiffness, measure, walls=""):
-        # Apart before and after: no energy is left in springs.
-        errors = [self.error(dt, 1.2e-3, spheres, stiffness, measure, walls) for dt in (4e-6, 2e-6, 1e-6, 5e-7)]
-        print(f"{name}: energy not accounted for, of what is lost:", *(f"{e:.2e}" for e in errors))
-        return errors
-
-    def check(self, *case, least=2e-4, order=1.8):
-        errors = self.errors(*case)
-        self.assertLess(abs(errors[-1]), least)
-        self.assertGreater(math.log2(abs(errors[0] / errors[-1])) / 3, order)
-
-    def test_damped_impact(self):
-        still = ((0, 0, 0),)
-        spheres = self.pairs(
-            0.2 * 4e-6,
-            (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0, 0), *still),
-            (1, 1e-3, 2000, (0.51e-3, 0.0), (-0.1, 0, 0), *still),
-        )
-        self.check("damped", spheres, dict(kn=1000, kt=300, gn=5e-3, gt=2e-3, mu=0.2), "damping")
-
-    def test_dashpots_that_end_contacts(self):
-        # With springs of sliding still strained.
-        spheres = self.pairs(
-            0.2 * 4e-6,
-            (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0.2, 0), (0, 0, 0)),
-            (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, -0.1, 0), (0, 0, 50)),
-        )
-        self.check("sliding, damped", spheres, dict(kn=1000, kt=300, gn=2e-2, mu=0.5), "friction", order=1.5)
-
-    def test_dashpots_that_end_contacts_with_a_wall(self):
-        dt = 4e-6
-        spheres = []
-        for n in range(self.PAIRS):
-            y, z = 5e-3 * (n // 5) - 1e-2, 5e-3 * (n % 5) - 1e-2
-            spheres.append((1, 1e-3, 2000, (0.51e-3 + 0.1 * dt * n / self.PAIRS, y, z), (-0.1, 0.2, 0), (0, 0, 0)))
-        self.check(
-            "sliding, damped, wall",
-            spheres,
-            dict(kn=1000, kt=300, gn=2e-2, mu=0.5),
-            "friction",
-            wall("side", "xplane 0"),
-        )
-
-    def test_sliding_impact(self):
-        # What is left is how a contact turns within a step, of the first order.
-        spheres = self.pairs(
-            0.2 * 4e-6,
-            (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0.2, 0), (0, 0, 0)),
-            (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, -0.1, 0), (0, 0, 50)),
-        )
-        self.check("sliding", spheres, dict(kn=1000, kt=300, gn=0, gt=2e-3, mu=0.2), "friction", least=3e-5, order=1.5)
-
-    def test_rolling_friction(self):
-        # Spheres that spin against each other as they meet.
-        spheres = self.pairs(
-            0.2 * 4e-6,
-            (1, 1e-3, 2000, (-0.51e-3, 0.0), (0.1, 0, 0), (0, 100, 200)),
-            (2, 1.3e-3, 2000, (0.66e-3, 0.1e-3), (-0.1, 0, 0), (0, -300, 50)),
-        )
-        stiffness = dict(kn=1000, kt=0, gn=0, mu=0)
-        errors = self.errors("rolling", spheres, dict(stiffness, tangential="history rolling_friction cdt"), "friction")
-        # So small that other errors of the last digits show at the shortest step.
-        self.assertLess(abs(errors[-1]), 1e-6)
-        self.assertGreater(math.log2(abs(errors[0] / errors[2])) / 2, 1.8)
-
-
-
-class EnergyOfACloud(HostTest):
-    """64 spheres that fly together, many of them touching several others at once: energy of motion, of
-    springs and heat together."""
-
-    KN, KT = 1000, 300
-
-    def cloud(self, seed):
-        random_, spheres = random.Random(seed), []
-        for n in range(64):
-            diameter = 1e-3 * (0.8 + 0.4 * random_.random())
-            place = tuple((m - 1.5) * 1.3e-3 + 1e-5 * random_.random() for m in (n % 4, n // 4 % 4, n // 16))
-            speed = tuple(-100 * x + 0.1 * (random_.random() - 0.5) for x in place)
-            spin = tuple(100 * (random_.random() - 0.5) for _ in range(3))
-            spheres.append((1, diameter, 2000, place, speed, spin))
-        return data_file(spheres, (-1e-2,) * 3, (1e-2,) * 3)
-
-    def error(self, dt, seed, damping):
-        self.write("data.spheres", self.cloud(seed))
-        steps = round(4e-3 / dt)
-        output = self.run_script(
-            head(dt=dt, kn=self.KN, kt=self.KT, gn=damping, gt=0.4 * damping)
-            + "fix move all nve/sphere\nfix heat all granflux/heat initial_temperature 300 damping on conduction off\n"
-            + "compute rot all erotate/sphere\ncompute springs all pair/gran/local history delta\n"
-            + thermo("ke c_rot f_heat[16] f_heat[17]", steps)
-            + f"run {steps}\n"
-            + "dump a all local 1 springs c_springs[1] c_springs[2] c_springs[3] c_springs[4]\n"
-            + 'dump_modify a format "%.17g %.17g %.17g %.17g"\n'
-            + "run 1\n"  # which receives what springs held when contacts ended
-        )
-        rows = [list(map(float, line.split())) for line in self.read("springs").rsplit("ITEM: ENTRIES", 1)[1].splitlines()[1:]]
-        elastic = sum(self.KN / 2 * r[3] ** 2 + self.KT / 2 * (r[0] ** 2 + r[1] ** 2 + r[2] ** 2) for r in rows)
-        first, last = thermo_rows(output)[0], thermo_rows(output)[-1]
-        lost = first[2] + first[3] - last[2] - last[3] - elastic
-        self.assertGreater(lost, 0.3 * (first[2] + first[3]))
-        return (lost - last[4] - last[5]) / lost
-
-    def errors(self, name, damping):
-        found = [math.sqrt(sum(self.error(dt, seed, damping) ** 2 for seed in (1, 2)) / 2) for dt in (2e-6, 1e-6, 5e-7)]
-        print(f"cloud, {name}: energy not accounted for, of what is lost:", *(f"{e:.2e}" for e in found))
-        return found
-
-    def test_friction_alone(self):
-        errors = self.errors("friction", 0)
-        self.assertLess(errors[-1], 1.5e-4)
-        self.assertGreater(math.log2(errors[0] / errors[-1]) / 2, 1.3)
-
-    def test_damped(self):
-        # With what springs of sliding hold when dashpots end a contact, 3.2e-3 of what is lost.
-        errors = self.errors("damped", 5e-3)
-        self.assertLess(errors[-1], 8e-4)
-        self.assertGreater(math.log2(errors[0] / errors[-1]) / 2, 0.9)
 
 
 if __name__ == "__main__":

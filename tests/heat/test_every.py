@@ -7,6 +7,7 @@ import unittest
 
 import test_budget
 import test_conduction
+import test_energy
 import test_gas
 from host import HostTest, last_snapshot, thermo_rows
 from warm_spheres import data_file, head, mass, thermo, wall
@@ -58,6 +59,35 @@ class Ledger(test_budget.Ledger):
         self.assertEqual(last_snapshot(self.read("temperatures")), whole)
 
     test_steps_with_virial = None
+
+
+class Cloud(test_energy.EnergyOfACloud):
+    """What dashpots, friction by speed, springs at parting and the half kick make of heat is the work of
+    every time step there, too, between particles and at walls."""
+
+    LAWS = (
+        dict(gn=5e-3, gt=2e-3),
+        dict(gn=5e-3, gt=5e-3, tangential="no_history"),
+        dict(gn=5e-3, tangential="history rolling_friction cdt"),
+    )
+
+    def run_script(self, *script, **options):
+        output = super().run_script(*script, **options)
+        self.books = thermo_rows(output)[-1][4:7]
+        return output
+
+    def test_books_of_every_step(self):
+        for law in self.LAWS:
+            books = []
+            for every in (1, 7):  # step 1001 is one of temperature
+                self.error(4e-6, 1, lambda script: script.replace("conduction off", f"conduction off heat_every {every}"), self.planes(), -100, **law)
+                books.append(self.books)
+            for name, one, seven in zip(("friction", "damping", "to walls"), *books):
+                self.assertGreater(one, 0)
+                self.assertAlmostEqual(seven / one, 1, delta=1e-11, msg=f"{law}: {name}")
+
+    test_friction = test_normal_dashpots = test_tangential_dashpots = test_all_dashpots = None
+    test_dashpots_as_friction = test_rolling = test_walls = test_triangles = test_hertz = None
 
 
 class Gas(test_gas.Gas):

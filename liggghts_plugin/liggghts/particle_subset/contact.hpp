@@ -8,6 +8,12 @@
 
 namespace granflux::particle_subset {
 
+/// A contact as it was placed a step ago: the velocities of this one have brought it here.
+struct ContactBefore {
+  double tangential_stiffness; ///< N/m; 0 if the two did not touch
+  Vec3 slip;                   ///< of the surfaces by the velocities of now, tangential then
+};
+
 /// Two touching spheres i and j, seen from i, in consistent units.
 struct Contact {
   Vec3 normal;         ///< unit vector from j to i
@@ -19,15 +25,32 @@ struct Contact {
   double radius_i, radius_j;
   double reduced_radius; ///< ri rj / (ri + rj)
   double reduced_mass;   ///< mi mj / (mi + mj); the other's mass where one is frozen
+  ContactBefore before;
 };
 
-/// Powers that a contact turns into heat [W]. A kernel without heat leaves out what makes them.
+/// Force and torque against motion, whose work is heat: on one particle [N, N m].
+struct Resistance {
+  Vec3 force, torque;
+};
+
+/// The same of a contact.
+struct ContactResistance {
+  Vec3 force; ///< on i; the opposite on j
+  Vec3 torque_i, torque_j;
+};
+
+/// Powers that a contact turns into heat [W], with the speeds before the half kick of its step:
+/// what that adds follows from the resistances, once all forces on a particle are known. A kernel
+/// without heat leaves out what makes them.
 struct Dissipation {
   double sliding = 0; ///< by the slider: its own displacement against its force
   /// By Eq. 8 of Amritkar, Deb, Tafti (2014), mu |F_n| |slip| while the contact slides: its parts.
   double slider_force = 0, slip_squared = 0; ///< N, 0 while it sticks; m2/s2
   double damping = 0;                        ///< by dashpots
   double rolling = 0;                        ///< by rolling friction
+  /// What springs lose, or gain, by steps of finite length: as the contact turns, and as stiffness
+  /// changes with the overlap.
+  double turning = 0;
 
   [[nodiscard]] double sliding_by_speed() const { return slider_force * std::sqrt(slip_squared); }
 };
@@ -36,13 +59,16 @@ struct Dissipation {
 struct TangentialForce {
   Vec3 force;
   Dissipation heat;
+  Vec3 dashpot = {}, rubbing = {}; ///< the parts that resist the slip
 };
 
 /// Of rolling friction, with what it turns into heat.
 struct RollingTorque {
-  Vec3 on_j;         ///< the opposite on i
-  double sliding;    ///< power of a slider in it [W]
-  Vec3 against_spin; ///< the part whose work on the relative spin is heat
+  Vec3 on_j;              ///< the opposite on i
+  double sliding = 0;     ///< power of a slider in it [W]
+  Vec3 against_spin = {}; ///< the part whose work on the relative spin is heat
+  Vec3 spring = {};       ///< the mean over the step of the part that a spring makes
+  double turning = 0;     ///< Dissipation::turning of that spring
 };
 
 /// Slip at the middle of the two half steps of velocity around a force: the force changes it in
@@ -59,10 +85,9 @@ struct NormalForce {
   double tangential_damping; ///< 0 where the script switches it off
 };
 
-/// Power of the normal dashpot [W], with the speed at the middle of the half steps around it.
-[[nodiscard]] inline double damping_power(const Contact& c, const NormalForce& normal, double dt) {
-  const double speed = c.normal_speed + 0.5 * dt / c.reduced_mass * normal.force;
-  return (normal.stiffness * c.overlap - normal.force) * speed;
+/// Of the normal dashpot, on i along the normal [N].
+[[nodiscard]] inline double normal_dashpot(const Contact& c, const NormalForce& normal) {
+  return normal.force - normal.stiffness * c.overlap;
 }
 
 } // namespace granflux::particle_subset

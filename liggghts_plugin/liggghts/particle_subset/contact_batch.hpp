@@ -99,7 +99,7 @@ template <class Law, bool one_material, class Heat>
     if constexpr (Law::has_rolling_history)
       b.rolling_history.set(k, rolling);
     if constexpr (Heat::acts)
-      heat.template set<Law::rolls>(k, f);
+      heat.template set<Law>(k, f);
   }
 }
 

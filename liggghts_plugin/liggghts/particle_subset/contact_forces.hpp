@@ -7,6 +7,7 @@
 #include "contact_batch.hpp"
 #include "contact_lists.hpp"
 #include "heat_batch.hpp"
+#include "stored_at_parting.hpp"
 
 namespace granflux::particle_subset {
 
@@ -73,6 +74,9 @@ private:
       batch_.entry[count] = e;
       batch_.separation.set(count, separation);
       batch_.distance_squared[count] = squared;
+      if constexpr (Heat::template looks_at_partings<Law>)
+        if (squared >= radii * radii && rows.flags[std::size_t(e)])
+          part(rows, e, i, j);
       // Overwritten by the next pair unless this one touches.
       count += squared < radii * radii;
     }
@@ -108,6 +112,17 @@ private:
     if constexpr (Heat::acts)
       heat_.add(batch_, count, own_, p_.type);
     scatter<side>(rows, count);
+    if constexpr (Heat::template resists<Law>)
+      heat_.resist(batch_, count, own_);
+  }
+
+  /// A pair that has touched since the lists were built and does not now.
+  void part(const ContactRows& rows, int e, int i, int j) {
+    if (!heat_.all_dissipated())
+      return;
+    const auto& k = constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1];
+    const double* history = &rows.history[std::size_t(e) * Law::history];
+    heat_.add_left(i, j, p_.type, left_at_parting<Law>(k, p_, i, j, dt_, history) / dt_, own_);
   }
 
   void gather(const ContactRows& rows, int count) {

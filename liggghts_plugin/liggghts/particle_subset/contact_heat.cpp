@@ -19,6 +19,25 @@ HeatSums& HeatSums::operator+=(const HeatSums& o) & {
   return *this;
 }
 
+void HeatArrays::add_made(int p, double friction, double damping, HeatSums& of_thread) const {
+  if (kept.now) {
+    if (kept.friction)
+      kept.friction[p] += kept.dt * friction;
+    if (kept.damping)
+      kept.damping[p] += kept.dt * damping;
+    return;
+  }
+  const double by_friction = part_of_step * friction, by_damping = part_of_step * damping;
+  rate[p] += by_friction + by_damping;
+  of_thread.friction += by_friction;
+  of_thread.damping += by_damping;
+  if (!shown.wanted())
+    return;
+  shown.contacts[p].made += by_friction + by_damping;
+  shown.details[p].friction += by_friction;
+  shown.details[p].damping += by_damping;
+}
+
 ContactHeat::ContactHeat(const ContactHeatOptions& options,
                          std::span<const ThermalMaterial> materials,
                          std::span<const double> overlap_ratio)
@@ -88,27 +107,15 @@ void HeatOfWall::give(int p, double conduction, double conductance, double all_f
   const double share = contacts.law->options().wall_share;
   const double to_wall = share * (all_friction + all_damping);
   sums.to_walls += to_wall;
-  if (const KeptHeat& kept = arrays.kept; kept.now) {
-    if (kept.friction)
-      kept.friction[p] += kept.dt * (1 - share) * all_friction;
-    if (kept.damping)
-      kept.damping[p] += kept.dt * (1 - share) * all_damping;
+  arrays.add_made(p, (1 - share) * all_friction, (1 - share) * all_damping, sums);
+  if (arrays.kept.now)
     return;
-  }
-  const double friction = arrays.part_of_step * (1 - share) * all_friction;
-  const double damping = arrays.part_of_step * (1 - share) * all_damping;
-  arrays.rate[p] += conduction + friction + damping;
+  arrays.rate[p] += conduction;
   sums.walls += conduction;
-  sums.friction += friction;
-  sums.damping += damping;
 
   if (!arrays.shown.wanted())
     return;
-  arrays.shown.contacts[p].made += friction + damping;
-  HeatDetails& details = arrays.shown.details[p];
-  details.friction += friction;
-  details.damping += damping;
-  details.conductance += conductance;
+  arrays.shown.details[p].conductance += conductance;
   WallHeatRates& walls = arrays.shown.walls[p];
   walls.conduction += conduction;
   walls.to_wall += to_wall;

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <omp.h>
+
 #include <granflux/coupling/contact_heat/contact_radius.hpp>
 
 #include "contact.hpp"
@@ -59,6 +61,20 @@ struct KeptHeat {
   double *friction = nullptr, *damping = nullptr; ///< of owned particles [J]: added to
 };
 
+/// What resists the motion of one particle at a wall.
+struct WallResistance {
+  int particle;
+  Resistance damping, rubbing;
+};
+
+/// What resists motion in this step: from it follows what the half kick adds to the heat that is
+/// made (half_kick_heat.hpp).
+struct Resistances {
+  Resistance* damping = nullptr; ///< on owned particles: added to; null where it makes no heat
+  Resistance* rubbing = nullptr; ///< likewise
+  std::vector<WallResistance>* walls = nullptr; ///< of each thread: appended to
+};
+
 /// Arrays of the host, borrowed.
 struct HeatArrays {
   const double* temperature = nullptr; ///< of owned particles and ghosts [K]
@@ -69,6 +85,11 @@ struct HeatArrays {
   /// What the power of this time step counts in the rate of a step of temperature: one over the
   /// number of time steps that it spans.
   double part_of_step = 1;
+  Resistances resistances;
+
+  /// Adds to particle p its share of what friction and dashpots make in this time step [W].
+  /// `of_thread`: the sums of the one that calls.
+  void add_made(int p, double friction, double damping, HeatSums& of_thread) const;
 };
 
 /// How the heat of friction is found: not at all, from the slider's own work, or as
@@ -81,6 +102,8 @@ struct ContactHeatOptions {
   bool damping = false;    ///< heat of dashpots
   double wall_share = 0.5; ///< of the heat made at a wall that goes into the wall
 
+  /// All that contacts dissipate is heat: what springs lose by steps of finite length is, too.
+  [[nodiscard]] bool all_dissipated() const { return damping && friction == FrictionHeat::slider; }
   /// The slider's own work is all that contacts make.
   [[nodiscard]] bool slider_alone() const { return !damping && friction == FrictionHeat::slider; }
 };
@@ -123,9 +146,10 @@ public:
                                            double force) const;
   /// What the options count of the heat of sliding and rolling [W].
   [[nodiscard]] double friction(const Dissipation& heat) const {
-    return options_.friction == FrictionHeat::slider  ? heat.sliding + heat.rolling
-           : options_.friction == FrictionHeat::speed ? heat.sliding_by_speed() + heat.rolling
-                                                      : 0;
+    return options_.all_dissipated()                   ? heat.sliding + heat.rolling + heat.turning
+           : options_.friction == FrictionHeat::slider ? heat.sliding + heat.rolling
+           : options_.friction == FrictionHeat::speed  ? heat.sliding_by_speed() + heat.rolling
+                                                       : 0;
   }
 
 private:
@@ -152,6 +176,12 @@ struct HeatOfWall {
   /// Adds what particle p of a type exchanges with the wall of another.
   void add(int p, int type, int wall_type, double radius, double overlap, double force,
            const Dissipation& made) const;
+  /// Notes what resists a particle's motion there.
+  void resist(const WallResistance& resistance) const {
+    contacts.arrays.resistances.walls[omp_get_thread_num()].push_back(resistance);
+  }
+  /// Adds the particle's and the wall's share of what friction and dashpots make [W].
+  void add_made(int p, double friction, double damping) const { give(p, 0, 0, friction, damping); }
   /// Adds the particle's and the wall's share of what is left in the springs of a contact that has
   /// ended [W].
   void add_parted(int p, double power) const;

@@ -22,6 +22,8 @@ public:
   virtual ~ContactKernel() = default;
   /// Doubles that a contact remembers.
   [[nodiscard]] virtual int history_size() const = 0;
+  /// Whether friction resists by speed, not by a slider.
+  [[nodiscard]] virtual bool rubs() const = 0;
   /// The constants of each pair of `types` types: before a run.
   virtual void read(const Material& material, int types) = 0;
   /// Adds the forces and torques on the particles of one thread, and brings its histories to the
@@ -36,7 +38,7 @@ public:
   /// Adds to `heat` [J], of owned particles, what the springs of contacts hold that have ended
   /// since the lists were built: it is lost to motion with the lists. For the particles of one
   /// thread.
-  virtual void add_parted(const Particles& particles, const ThreadContacts& contacts,
+  virtual void add_parted(const Particles& particles, const ThreadContacts& contacts, double dt,
                           const ContactHeat& law, double* heat) const = 0;
   void add(const Particles& particles, ThreadContacts& contacts, double dt,
            const HeatOfContacts* heat = nullptr) const {

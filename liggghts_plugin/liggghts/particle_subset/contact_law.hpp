@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact.hpp"
@@ -27,6 +28,7 @@ struct ContactForce {
   double pressing; ///< normal force without cohesion [N]
   double overlap, reduced_radius;
   Dissipation heat;
+  ContactResistance damping, rubbing;
 };
 
 /// One choice of laws, put together by the compiler: an effect that is off leaves no instruction.
@@ -40,6 +42,7 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
   static constexpr int rolling_offset = Tangential::history;
   static constexpr bool rolls = Rolling::acts;
   static constexpr bool turns = Tangential::acts || Rolling::acts; ///< there are torques
+  static constexpr bool rubs = Tangential::rubs || Rolling::rubs;  ///< friction resists by speed
   /// The host's marks of the laws that have acted on a pair.
   static constexpr int touched =
       1 | (Cohesion::acts ? 2 : 0) | (Tangential::acts ? 4 : 0) | (has_rolling_history ? 8 : 0);
@@ -80,6 +83,8 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
     }
     if constexpr (Rolling::acts)
       c.relative_spin = p.spin_i - p.spin_j;
+    if constexpr (history > 0)
+      c.before = before(k, p, dt, c.reduced_radius, c.reduced_mass);
 
     NormalForce normal = Normal::force(k.normal, c);
     ContactForce f{.force = normal.force * c.normal,
@@ -88,35 +93,88 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
                    .pressing = normal.force,
                    .overlap = c.overlap,
                    .reduced_radius = c.reduced_radius,
-                   .heat = {}};
-    f.heat.damping = damping_power(c, normal, dt);
+                   .heat = {},
+                   .damping = {},
+                   .rubbing = {}};
+    const double dashpot = normal_dashpot(c, normal);
+    f.damping.force = dashpot * c.normal;
+    f.heat.damping = -dashpot * c.normal_speed;
     if constexpr (Cohesion::acts) {
       const double pull = Cohesion::force(k.cohesion, c);
       f.force += pull * c.normal;
       normal.force += k.cohesion.in_friction * pull;
     }
     if constexpr (Tangential::acts) {
-      const auto [tangential, heat] =
+      const auto [tangential, heat, tangential_dashpot, rubbing] =
           Tangential::force(k.tangential, c, normal, dt, tangential_history);
       f.force += tangential;
+      f.damping.force += tangential_dashpot;
+      f.rubbing.force = rubbing;
       f.heat.sliding = heat.sliding;
       f.heat.slider_force = heat.slider_force;
       f.heat.slip_squared = heat.slip_squared;
       f.heat.damping += heat.damping;
+      f.heat.turning = heat.turning;
       const Vec3 moment = cross(c.normal, tangential);
       f.torque_i = -arm_i * moment;
       f.torque_j = -arm_j * moment;
+      turn(f.damping, cross(c.normal, tangential_dashpot), arm_i, arm_j);
+      turn(f.rubbing, cross(c.normal, rubbing), arm_i, arm_j);
     }
     if constexpr (Rolling::acts) {
       const RollingTorque rolling = Rolling::torque(k.rolling, c, normal, dt, rolling_history);
       f.torque_i -= rolling.on_j;
       f.torque_j += rolling.on_j;
-      // At the middle of the two half steps of spin around the torques.
-      const Vec3 turned = (1.25 * dt) * (1 / (p.mass_i * p.radius_i * p.radius_i) * f.torque_i -
-                                         1 / (p.mass_j * p.radius_j * p.radius_j) * f.torque_j);
-      f.heat.rolling = rolling.sliding + dot(rolling.against_spin, c.relative_spin + turned);
+      f.rubbing.torque_i -= rolling.against_spin;
+      f.rubbing.torque_j += rolling.against_spin;
+      f.heat.rolling = rolling.sliding + dot(rolling.against_spin, c.relative_spin);
+      f.heat.turning += rolling.turning;
     }
     return f;
+  }
+
+  /// What is left to become heat of two spheres that have parted in the last step, in which the
+  /// contact remembered what is given: what its springs hold, less the work of their last forces
+  /// [J]. 0 if they had parted before.
+  static double left_at_parting(const Constants& k, const TouchingPair& p, double dt,
+                                const Vec3& tangential_history, const Vec3& rolling_history) {
+    const double reduced_radius = p.radius_i * p.radius_j / (p.radius_i + p.radius_j);
+    const ContactBefore last =
+        before(k, p, dt, reduced_radius, p.mass_i * p.mass_j / (p.mass_i + p.mass_j));
+    double energy = 0;
+    if (last.tangential_stiffness > 0) {
+      if constexpr (has_tangential_history)
+        energy +=
+            Tangential::stored(last.tangential_stiffness, reduced_radius, tangential_history) -
+            Tangential::last_work(last, tangential_history, dt);
+      if constexpr (has_rolling_history)
+        energy += Rolling::stored(last.tangential_stiffness, reduced_radius, rolling_history) -
+                  Rolling::last_work(rolling_history, p.spin_i - p.spin_j, dt);
+    }
+    return energy;
+  }
+
+private:
+  static ContactBefore before(const Constants& k, const TouchingPair& p, double dt,
+                              double reduced_radius, double reduced_mass) {
+    const Vec3 separation = p.separation - dt * p.velocity;
+    const double distance = norm(separation), overlap = p.radius_i + p.radius_j - distance;
+    const Vec3 normal = (1 / distance) * separation;
+    Contact c{};
+    c.overlap = std::max(overlap, 0.0);
+    c.reduced_radius = reduced_radius;
+    c.reduced_mass = reduced_mass;
+    const double stiffness = Normal::force(k.normal, c).tangential_stiffness;
+    const Vec3 surface_spin =
+        (p.radius_i - 0.5 * overlap) * p.spin_i + (p.radius_j - 0.5 * overlap) * p.spin_j;
+    const Vec3 slip = p.velocity - cross(surface_spin, normal);
+    return {.tangential_stiffness = overlap > 0 ? stiffness : 0.0,
+            .slip = slip - dot(slip, normal) * normal};
+  }
+
+  static void turn(ContactResistance& r, const Vec3& moment, double arm_i, double arm_j) {
+    r.torque_i = -arm_i * moment;
+    r.torque_j = -arm_j * moment;
   }
 };
 

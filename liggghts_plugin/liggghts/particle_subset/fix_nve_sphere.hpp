@@ -24,9 +24,11 @@ public:
   /// pass over the particles less. Nobody may look at velocities before.
   void owe_final_integrate() { owed_ = true; }
 
-private:
+  /// What forces do to velocities in half a step, and whose.
   [[nodiscard]] HalfKick half_kick() const;
   [[nodiscard]] Spheres spheres() const;
+
+private:
   [[nodiscard]] int count() const;
   bool owed_ = false;
 };

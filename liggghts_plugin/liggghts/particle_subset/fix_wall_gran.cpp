@@ -37,6 +37,11 @@ namespace {
 
 using LIGGGHTS::ContactModels::SurfacesIntersectData;
 
+/// FixContactHistoryMesh::keepflag_ is protected: a class derived from it may name it.
+struct MeshHistoryAccess : LAMMPS_NS::FixContactHistoryMesh {
+  static auto kept() { return &MeshHistoryAccess::keepflag_; }
+};
+
 /// The laws of which it is known that the contacts of different particles do not meet in them.
 bool laws_are_separate(LIGGGHTS::Walls::IGranularWall& wall) {
   using namespace std::string_literals;
@@ -55,12 +60,12 @@ Vec3* rows(double** array) {
   return array ? reinterpret_cast<Vec3*>(array[0]) : nullptr;
 }
 
-WallTouch wall_touch(int particle, double gap, const double* to_wall, const double* velocity,
+WallTouch wall_touch(int particle, double gap, const double* to_wall, const Vec3& velocity,
                      double* history) {
   return {.particle = particle,
           .gap = gap,
           .separation = {-to_wall[0], -to_wall[1], -to_wall[2]},
-          .wall_velocity = {velocity[0], velocity[1], velocity[2]},
+          .wall_velocity = velocity,
           .history = history,
           .force = {}};
 }
@@ -342,6 +347,17 @@ void FixWallGran::touch_primitive(Range block) {
   }
 }
 
+WallTouch FixWallGran::primitive_touch(int particle, double gap, const double* to_wall,
+                                       const double* wall_velocity, double* history) {
+  double velocity[3] = {wall_velocity[0], wall_velocity[1], wall_velocity[2]};
+  if (shear_ && shearAxis_ >= 0) { // a turning cylinder
+    double radial[3];
+    primitiveWall_->calcRadialDistance(x_[0] + 3 * std::ptrdiff_t(particle), radial);
+    LAMMPS_NS::vectorCross3D(shearAxisVec_, radial, velocity);
+  }
+  return wall_touch(particle, gap, to_wall, {velocity[0], velocity[1], velocity[2]}, history);
+}
+
 void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Batch& batch) {
   // Not by the arrays of rows' addresses, which would come from memory for this alone.
   double* const x = x_[0] + 3 * std::ptrdiff_t(particle);
@@ -355,10 +371,12 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
     return;
   if (gap > 0) {
     if (makes_heat_ && by_kernel_ &&
-        std::any_of(history, history + dnum(), [](double h) { return h != 0; }))
+        std::any_of(history, history + dnum(), [](double h) { return h != 0; })) {
+      const WallTouch last = primitive_touch(particle, gap, to_wall, wall_velocity, history);
       primitive_heat_.add_parted(
           particle,
-          kernel_->stored_at_parting(particles_, particle, atom_type_wall_, history) / update->dt);
+          kernel_->left_at_parting(particles_, last, atom_type_wall_, update->dt) / update->dt);
+    }
     std::fill_n(history, dnum(), 0.0);
     return;
   }
@@ -366,13 +384,7 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
     centred_ = particle;
     return;
   }
-  double velocity[3] = {wall_velocity[0], wall_velocity[1], wall_velocity[2]};
-  if (shear_ && shearAxis_ >= 0) { // a turning cylinder
-    double radial[3];
-    primitiveWall_->calcRadialDistance(x, radial);
-    LAMMPS_NS::vectorCross3D(shearAxisVec_, radial, velocity);
-  }
-  const WallTouch touch = wall_touch(particle, gap, to_wall, velocity, history);
+  const WallTouch touch = primitive_touch(particle, gap, to_wall, wall_velocity, history);
   if (by_kernel_)
     batch.add(touch, nullptr);
   else
@@ -419,8 +431,65 @@ void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
       touch_mesh(mesh, pairs.particle[row], pairs.triangle[pair],
                  mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])],
                  batch);
-  if (mesh.history)
-    mesh.history->cleanUpContacts(block.begin, block.end);
+  if (!mesh.history)
+    return;
+  if (makes_heat_ && by_kernel_ && dnum() > 0)
+    for (auto p = first; p != pairs.particle.end() && *p < block.end; ++p)
+      leave_mesh(mesh, *p);
+  mesh.history->cleanUpContacts(block.begin, block.end);
+}
+
+/// What contacts of a particle that are about to be forgotten leave behind.
+void FixWallGran::leave_mesh(const Mesh& mesh, int particle) {
+  LAMMPS_NS::FixContactHistoryMesh& known = *mesh.history;
+  LAMMPS_NS::TriMesh& triangles = *mesh.triangles;
+  const bool* kept = (known.*MeshHistoryAccess::kept())[particle];
+  const int slots = known.nneighs(particle);
+  const auto triangle_of = [&](int slot) { return known.get_partner_idTri(particle, slot); };
+  const auto goes_on_beside = [&](int slot) { // a coplanar triangle has taken its memory over
+    for (int other = 0; other < slots; ++other)
+      if (triangle_of(other) >= 0 && kept[other] &&
+          triangles.areCoplanarNodeNeighs(triangle_of(slot), triangle_of(other)))
+        return true;
+    return false;
+  };
+  for (int slot = 0; slot < slots; ++slot) {
+    if (triangle_of(slot) < 0 || kept[slot])
+      continue;
+    double* history = known.contacthistory(particle, slot);
+    const int triangle = triangles.map(triangle_of(slot), 0);
+    if (triangle < 0 || std::all_of(history, history + dnum(), [](double h) { return h == 0; }) ||
+        goes_on_beside(slot))
+      continue;
+    const MeshPlace place = place_on(mesh, particle, triangle);
+    const Vec3 velocity = velocity_at(mesh, triangle, place);
+    const WallTouch last = wall_touch(particle, place.gap, place.to_wall, velocity, history);
+    mesh.heat.add_parted(particle,
+                         kernel_->left_at_parting(particles_, last, mesh.wall_type, update->dt) /
+                             update->dt);
+  }
+}
+
+/// The point of a triangle that is nearest to a particle.
+FixWallGran::MeshPlace FixWallGran::place_on(const Mesh& mesh, int particle, int triangle) const {
+  constexpr int face = 7; // LIGGGHTS' name of the place
+  MeshPlace place;
+  int part = 0;
+  place.gap = mesh.triangles->resolveTriSphereContactBary(
+      particle, triangle, radius_[particle], x_[particle], place.to_wall, place.weight, part, true);
+  place.within = part == face;
+  return place;
+}
+
+Vec3 FixWallGran::velocity_at(const Mesh& mesh, int triangle, const MeshPlace& place) {
+  Vec3 velocity;
+  if (mesh.velocity) {
+    double** corner = mesh.velocity[triangle];
+    for (int d = 0; d < 3; ++d)
+      velocity[d] = place.weight[0] * corner[0][d] + place.weight[1] * corner[1][d] +
+                    place.weight[2] * corner[2][d];
+  }
+  return velocity;
 }
 
 void FixWallGran::sum_on_mesh(Mesh& mesh) {
@@ -455,43 +524,34 @@ void FixWallGran::post_force_mesh(int vflag) {
 
 void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh,
                              Batch& batch) {
-  constexpr int face = 7; // place of the nearest point: within the triangle
-  double to_wall[3], weight[3];
-  int place = 0;
-  const double gap = mesh.triangles->resolveTriSphereContactBary(
-      particle, triangle, radius_[particle], x_[particle], to_wall, weight, place, true);
-  if (gap > 0)
+  const MeshPlace place = place_on(mesh, particle, triangle);
+  if (place.gap > 0)
     return;
-  if (is_centred(particle, gap, to_wall)) {
+  if (is_centred(particle, place.gap, place.to_wall)) {
     centred_ = particle;
     return;
   }
   double* history = nullptr;
   if (mesh.history && !mesh.history->handleContact(particle, mesh.triangles->id(triangle), history,
-                                                   true, place == face))
+                                                   true, place.within))
     return;
-  double wall_velocity[3] = {0, 0, 0};
-  if (mesh.velocity) {
-    double** corner = mesh.velocity[triangle];
-    for (int d = 0; d < 3; ++d)
-      wall_velocity[d] =
-          weight[0] * corner[0][d] + weight[1] * corner[1][d] + weight[2] * corner[2][d];
-  }
+  const Vec3 wall_velocity = velocity_at(mesh, triangle, place);
   if (on_mesh) {
     on_mesh->particle = particle;
     on_mesh->triangle = triangle;
     for (int d = 0; d < 3; ++d) {
-      on_mesh->to_wall[d] = to_wall[d];
+      on_mesh->to_wall[d] = place.to_wall[d];
       on_mesh->wall_velocity[d] = wall_velocity[d];
     }
   }
-  const WallTouch touch = wall_touch(particle, gap, to_wall, wall_velocity, history);
+  const WallTouch touch = wall_touch(particle, place.gap, place.to_wall, wall_velocity, history);
   if (by_kernel_)
     batch.add(touch, on_mesh);
   else
     touch_by_host(touch, &mesh, triangle, on_mesh);
   if (makes_heat_ && !by_kernel_)
-    mesh.heat.add(particle, atom->type[particle], mesh.wall_type, radius_[particle], -gap, 0, {});
+    mesh.heat.add(particle, atom->type[particle], mesh.wall_type, radius_[particle], -place.gap, 0,
+                  {});
 }
 
 void FixWallGran::touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle,

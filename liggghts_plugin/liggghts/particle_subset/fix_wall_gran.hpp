@@ -78,10 +78,20 @@ private:
   [[nodiscard]] HeatOfWall heat_of_wall(LAMMPS_NS::TriMesh* triangles) const;
   void touch_primitive(Range block);
   void touch_primitive(int particle, const double* wall_velocity, Batch& batch);
+  [[nodiscard]] WallTouch primitive_touch(int particle, double gap, const double* to_wall,
+                                          const double* wall_velocity, double* history);
   void begin_mesh(int number);
   void sum_on_mesh(Mesh& mesh);
   void touch_mesh(Mesh& mesh, Range block);
   void touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh, Batch& batch);
+  void leave_mesh(const Mesh& mesh, int particle);
+  struct MeshPlace {
+    double gap;
+    double to_wall[3], weight[3]; // of the corners
+    bool within;                  // not on an edge or a corner
+  };
+  [[nodiscard]] MeshPlace place_on(const Mesh& mesh, int particle, int triangle) const;
+  [[nodiscard]] static Vec3 velocity_at(const Mesh& mesh, int triangle, const MeshPlace& place);
   void touch_by_host(const WallTouch& touch, const Mesh* mesh, int triangle, ForceOnMesh* on_mesh);
 
   GranWords words_;

@@ -146,6 +146,39 @@ void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own, const
     show(batch, count, own);
 }
 
+template <HeatMade made>
+void HeatBatch<made>::Resisting::add(const ContactBatch& b, int count, Range own,
+                                     Resistance* sums) const {
+  for (int k = 0; k < count; ++k) {
+    const int i = b.i[k], j = b.j[k];
+    if (own.holds(i)) {
+      sums[i].force += force.at(k);
+      sums[i].torque += torque_i.at(k);
+    }
+    if (own.holds(j)) {
+      sums[j].force -= force.at(k);
+      sums[j].torque += torque_j.at(k);
+    }
+  }
+}
+
+template <HeatMade made>
+void HeatBatch<made>::add_left(int i, int j, const int* type, double power, Range own) {
+  const double share = law_.pair(type[i], type[j]).share;
+  if (own.holds(i))
+    arrays_.add_made(i, share * power, 0, sums_);
+  if (own.holds(j))
+    arrays_.add_made(j, (1 - share) * power, 0, sums_);
+}
+
+template <HeatMade made>
+void HeatBatch<made>::resist(const ContactBatch& b, int count, Range own) const {
+  if (arrays_.resistances.damping)
+    damper_.add(b, count, own, arrays_.resistances.damping);
+  if (arrays_.resistances.rubbing)
+    rubbing_.add(b, count, own, arrays_.resistances.rubbing);
+}
+
 /// To the particles, and to the sums.
 template <HeatMade made>
 void HeatBatch<made>::hand_on(const ContactBatch& b, int count, Range own) {

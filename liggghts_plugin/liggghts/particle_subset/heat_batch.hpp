@@ -13,6 +13,8 @@ namespace granflux::particle_subset {
 /// Forces alone: leaves no instruction in a kernel.
 struct WithoutHeat {
   static constexpr bool acts = false;
+  template <class Law> static constexpr bool resists = false;
+  template <class Law> static constexpr bool looks_at_partings = false;
   using Source = WithoutHeat;
 };
 
@@ -26,6 +28,11 @@ enum class HeatMade {
 template <HeatMade made> class HeatBatch {
 public:
   static constexpr bool acts = true;
+  /// Whether what makes heat depends on speed: then the half kick adds to it.
+  template <class Law> static constexpr bool resists = made == HeatMade::by_any || Law::rubs;
+  /// Whether what springs hold when two part is noticed in that step.
+  template <class Law>
+  static constexpr bool looks_at_partings = made == HeatMade::by_any&& Law::history > 0;
   using Source = HeatOfContacts;
 
   explicit HeatBatch(const HeatOfContacts& heat);
@@ -34,23 +41,32 @@ public:
   HeatBatch& operator=(const HeatBatch&) = delete;
 
   /// With the forces, of whole groups of lanes.
-  template <bool rolls> void set(int k, const ContactForce& f) {
+  template <class Law> void set(int k, const ContactForce& f) {
     pressing_[k] = f.pressing;
     overlap_[k] = f.overlap;
     reduced_radius_[k] = f.reduced_radius;
     friction_[k] = f.heat.sliding;
-    if constexpr (rolls)
+    if constexpr (Law::rolls)
       friction_[k] += f.heat.rolling;
+    if constexpr (Law::rubs)
+      rubbing_.set(k, f.rubbing);
     if constexpr (made == HeatMade::by_any) {
       slider_force_[k] = f.heat.slider_force;
       slip_squared_[k] = f.heat.slip_squared;
       damping_[k] = f.heat.damping;
+      friction_[k] += f.heat.turning; // unless the slider is not counted
       rolling_[k] = f.heat.rolling;
+      damper_.set(k, f.damping);
     }
   }
   /// After the forces: what the first `count` pairs, of which some particles are `own`, conduct and
   /// make; in a time step between two steps of temperature what they make is kept.
   void add(const ContactBatch& batch, int count, Range own, const int* type);
+  [[nodiscard]] bool all_dissipated() const { return law_.options().all_dissipated(); }
+  /// Adds the shares of what is left of a contact that has ended [W].
+  void add_left(int i, int j, const int* type, double power, Range own);
+  /// Adds what resists motion to the own particles.
+  void resist(const ContactBatch& batch, int count, Range own) const;
 
 private:
   void set_constants(const ContactBatch& batch, int count, const int* type);
@@ -66,6 +82,15 @@ private:
   void show(const ContactBatch& batch, int count, Range own) const;
 
   using Column = ContactBatch::Column;
+  struct Resisting {
+    ContactBatch::Vectors force, torque_i, torque_j;
+    void set(int k, const ContactResistance& r) {
+      force.set(k, r.force);
+      torque_i.set(k, r.torque_i);
+      torque_j.set(k, r.torque_j);
+    }
+    void add(const ContactBatch& batch, int count, Range own, Resistance* sums) const;
+  };
   const ContactHeat& law_;
   const HeatArrays arrays_;
   const int types_;
@@ -76,6 +101,7 @@ private:
   alignas(64) Column pressing_, overlap_, reduced_radius_;
   alignas(64) Column friction_, slider_force_, slip_squared_, rolling_, damping_;
   alignas(64) Column conductance_, conduction_, rate_i_, rate_j_;
+  Resisting damper_, rubbing_;
 };
 
 extern template class HeatBatch<HeatMade::by_slider>;

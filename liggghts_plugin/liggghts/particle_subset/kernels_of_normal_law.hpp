@@ -18,6 +18,7 @@ namespace granflux::particle_subset {
 template <class Law> class KernelOf final : public ContactKernel {
 public:
   [[nodiscard]] int history_size() const override { return Law::history; }
+  [[nodiscard]] bool rubs() const override { return Law::rubs; }
 
   void read(const Material& material, int types) override {
     types_ = types;
@@ -38,7 +39,7 @@ public:
     with_forces(particles, contacts, dt, heat, [&](auto& forces) { forces.add_upper(block); });
   }
 
-  void add_parted(const Particles& particles, const ThreadContacts& contacts,
+  void add_parted(const Particles& particles, const ThreadContacts& contacts, double dt,
                   const ContactHeat& law, double* heat) const override {
     if constexpr (Law::history > 0) {
       for (const auto& [i, j, history] : contacts.parted) {
@@ -46,7 +47,10 @@ public:
         const int type_i = particles.type[i], type_j = particles.type[j];
         const auto& k = constants_[std::size_t((type_i - 1) * types_ + type_j - 1)];
         const double energy =
-            stored_at_parting<Law>(k, ri * rj / (ri + rj), particles.reduced_mass(i, j), history);
+            law.options().all_dissipated() // else it is not looked at when the two part
+                ? left_at_parting<Law>(k, particles, i, j, dt, history)
+                : stored_at_parting<Law>(k, ri * rj / (ri + rj), particles.reduced_mass(i, j),
+                                         history);
         const double share = law.pair(type_i, type_j).share;
         if (contacts.own.holds(i))
           heat[i] += share * energy;

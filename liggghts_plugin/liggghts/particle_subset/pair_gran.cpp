@@ -189,11 +189,15 @@ void PairGran::own_work(int thread, Range block) {
   kernel_->add_upper(particles(), lists_.of(thread), block, update->dt, heat());
 }
 
-/// Rates of the last step of temperature stay until there is another.
+/// Rates of the last step of temperature stay until there is another; what resists motion is of
+/// each time step.
 void PairGran::clear_heat(Range range) const {
-  if (heat_now_.arrays.kept.now)
-    return;
-  std::fill(heat_now_.arrays.rate + range.begin, heat_now_.arrays.rate + range.end, 0.0);
+  const HeatArrays& arrays = heat_now_.arrays;
+  if (!arrays.kept.now)
+    std::fill(arrays.rate + range.begin, arrays.rate + range.end, 0.0);
+  for (Resistance* of : {arrays.resistances.damping, arrays.resistances.rubbing})
+    if (of)
+      std::fill(of + range.begin, of + range.end, Resistance{});
 }
 
 /// In a step whose forces are left to LIGGGHTS' loop: forces and histories go nowhere.
@@ -330,9 +334,11 @@ void PairGran::add_parted_heat() {
     return;
   const Particles all = particles();
   const ContactHeat& law = *heat_->heat_of_contacts().law;
+  if (law.options().all_dissipated() && update->setupflag)
+    return; // a step looks at what parts in it
 #pragma omp parallel for num_threads(lists_.subset().threads()) schedule(static, 1)
   for (int thread = 0; thread < lists_.subset().threads(); ++thread)
-    kernel_->add_parted(all, lists_.of(thread), law, heat);
+    kernel_->add_parted(all, lists_.of(thread), update->dt, law, heat);
 }
 
 } // namespace granflux::particle_subset

@@ -46,6 +46,8 @@ public:
 
   /// Whether contacts are remembered in the lists here, not in LIGGGHTS' own.
   [[nodiscard]] bool holds_history() const { return by_subset_; }
+  /// Whether friction resists by speed, not by a slider. Only by particle subset.
+  [[nodiscard]] bool rubs() const { return kernel_->rubs(); }
   void store_history(PartnerHistory kept);
 
   /// Normal force of one contact of types a and b, for what follows from the law once a run;

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "choices.hpp"
+#include "history_of_law.hpp"
 #include "law/hertz.hpp"
 #include "law/hertz_stiffness.hpp"
 #include "law/hooke.hpp"
 #include "law/hooke_stiffness.hpp"
-#include "stored_at_parting.hpp"
 #include "wall_law.hpp"
 
 namespace granflux::particle_subset {
@@ -38,13 +38,19 @@ public:
     touch_all(p, touches, wall_type, dt, [&](const WallTouch& touch, const typename Law::Force& f) {
       const int i = touch.particle;
       heat.add(i, p.type[i], wall_type, p.radius[i], -touch.gap, f.pressing, f.heat);
+      if (Law::rubs || heat.contacts.law->options().damping)
+        heat.resist({i, f.damping, f.rubbing});
     });
   }
 
-  [[nodiscard]] double stored_at_parting(const Particles& p, int i, int wall_type,
-                                         const double* history) const override {
-    const auto& k = constants_[std::size_t((p.type[i] - 1) * types_ + wall_type - 1)];
-    return particle_subset::stored_at_parting<Law>(k, p.radius[i], p.mass[i], history);
+  [[nodiscard]] double left_at_parting(const Particles& p, const WallTouch& last, int wall_type,
+                                       double dt) const override {
+    if constexpr (Law::history > 0)
+      return Law::left_at_parting(constants(p, last.particle, wall_type), touched(p, last), dt,
+                                  tangential_history<Law>(last.history),
+                                  rolling_history<Law>(last.history));
+    else
+      return 0;
   }
 
 private:
@@ -54,16 +60,10 @@ private:
                                   double dt, Seen&& seen) const {
     for (WallTouch& touch : touches) {
       const int i = touch.particle;
-      const TouchedWall wall{.separation = touch.separation,
-                             .velocity = p.velocity[i] - touch.wall_velocity,
-                             .spin = p.spin[i],
-                             .distance = p.radius[i] + touch.gap,
-                             .radius = p.radius[i],
-                             .mass = p.mass[i]};
-      const auto& k = constants_[std::size_t((p.type[i] - 1) * types_ + wall_type - 1)];
-      Vec3 tangential = history_at<Law::has_tangential_history>(touch.history);
-      Vec3 rolling = history_at<Law::has_rolling_history>(touch.history + Law::rolling_offset);
-      const auto f = Law::force(k, wall, dt, tangential, rolling);
+      Vec3 tangential = tangential_history<Law>(touch.history);
+      Vec3 rolling = rolling_history<Law>(touch.history);
+      const auto f =
+          Law::force(constants(p, i, wall_type), touched(p, touch), dt, tangential, rolling);
       keep_history<Law::has_tangential_history>(touch.history, tangential);
       keep_history<Law::has_rolling_history>(touch.history + Law::rolling_offset, rolling);
       p.force[i] += f.force;
@@ -73,11 +73,18 @@ private:
     }
   }
 
-  template <bool has> static Vec3 history_at(const double* h) {
-    if constexpr (has)
-      return {h[0], h[1], h[2]};
-    else
-      return {};
+  [[nodiscard]] const typename Law::Constants& constants(const Particles& p, int particle,
+                                                         int wall_type) const {
+    return constants_[std::size_t((p.type[particle] - 1) * types_ + wall_type - 1)];
+  }
+  static TouchedWall touched(const Particles& p, const WallTouch& touch) {
+    const int i = touch.particle;
+    return {.separation = touch.separation,
+            .velocity = p.velocity[i] - touch.wall_velocity,
+            .spin = p.spin[i],
+            .distance = p.radius[i] + touch.gap,
+            .radius = p.radius[i],
+            .mass = p.mass[i]};
   }
   template <bool has> static void keep_history(double* h, const Vec3& v) {
     if constexpr (has)

@@ -34,9 +34,10 @@ public:
   /// Adds forces and torques to the particles, in the order of `touches`.
   virtual void add(const Particles& particles, std::span<WallTouch> touches, int wall_type,
                    double dt) const = 0;
-  /// What the springs of a contact with the wall hold when it ends [J].
-  [[nodiscard]] virtual double stored_at_parting(const Particles& particles, int particle,
-                                                 int wall_type, const double* history) const = 0;
+  /// What is left to become heat of a contact with the wall that has ended in the last step, its
+  /// gap no longer negative: what its springs held, less the work of their last forces [J].
+  [[nodiscard]] virtual double left_at_parting(const Particles& particles, const WallTouch& last,
+                                               int wall_type, double dt) const = 0;
   /// The same as add(), and the heat exchanged with this wall.
   virtual void add_with_heat(const Particles& particles, std::span<WallTouch> touches,
                              int wall_type, double dt, const HeatOfWall& heat) const = 0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "contact.hpp"
 #include "material.hpp"
 
@@ -23,6 +25,7 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
   using RollingLaw = Rolling;
   static constexpr int history = Tangential::history + Rolling::history; ///< doubles a contact
   static constexpr int rolling_offset = Tangential::history;
+  static constexpr bool rubs = Tangential::rubs || Rolling::rubs; ///< friction resists by speed
   static constexpr bool has_tangential_history = Tangential::history > 0;
   static constexpr bool has_rolling_history = Rolling::history > 0;
 
@@ -41,6 +44,7 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
     Vec3 force, torque; ///< on the particle
     double pressing;    ///< normal force without cohesion [N]
     Dissipation heat;
+    Resistance damping, rubbing; ///< on the particle
   };
 
   /// The histories are brought to the end of the step of `dt` seconds.
@@ -59,32 +63,82 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
     c.relative_spin = (arm * inverse) * w.spin;
     c.slip = w.velocity - c.normal_speed * c.normal - cross(c.relative_spin, w.separation);
 
+    if constexpr (history > 0)
+      c.before = before(k, w, dt);
+
     NormalForce normal = Normal::force(k.normal, c);
-    Force f{.force = normal.force * c.normal, .torque = {}, .pressing = normal.force, .heat = {}};
-    f.heat.damping = damping_power(c, normal, dt);
+    Force f{.force = normal.force * c.normal,
+            .torque = {},
+            .pressing = normal.force,
+            .heat = {},
+            .damping = {},
+            .rubbing = {}};
+    const double dashpot = normal_dashpot(c, normal);
+    f.damping.force = dashpot * c.normal;
+    f.heat.damping = -dashpot * c.normal_speed;
     if constexpr (Cohesion::acts) {
       const double pull = Cohesion::force_of_wall(k.cohesion, c);
       f.force += pull * c.normal;
       normal.force += k.cohesion.in_friction * pull;
     }
     if constexpr (Tangential::acts) {
-      const auto [tangential, heat] =
+      const auto [tangential, heat, tangential_dashpot, rubbing] =
           Tangential::force(k.tangential, c, normal, dt, tangential_history);
       f.force += tangential;
+      f.damping.force += tangential_dashpot;
+      f.rubbing.force = rubbing;
       f.heat.sliding = heat.sliding;
       f.heat.slider_force = heat.slider_force;
       f.heat.slip_squared = heat.slip_squared;
       f.heat.damping += heat.damping;
+      f.heat.turning = heat.turning;
       f.torque = -arm * cross(c.normal, tangential);
+      f.damping.torque = -arm * cross(c.normal, tangential_dashpot);
+      f.rubbing.torque = -arm * cross(c.normal, rubbing);
     }
     if constexpr (Rolling::acts) {
       const RollingTorque rolling = Rolling::torque(k.rolling, c, normal, dt, rolling_history);
       f.torque -= rolling.on_j;
-      // What the torque works on is the sphere's own spin, at the middle of the two half steps.
-      const Vec3 spin = w.spin + (1.25 * dt / (w.mass * w.radius * w.radius)) * f.torque;
-      f.heat.rolling = (w.distance / arm) * rolling.sliding + dot(rolling.against_spin, spin);
+      f.rubbing.torque -= rolling.against_spin;
+      // What the torque works on is the sphere's own spin.
+      const double sliding = (w.distance / arm) * rolling.sliding;
+      f.heat.rolling = sliding + dot(rolling.against_spin, w.spin);
+      f.heat.turning += rolling.turning + rolling.sliding - sliding +
+                        dot(rolling.spring, w.spin - c.relative_spin);
     }
     return f;
+  }
+
+  /// As ContactLaw::left_at_parting(); `w` is not touched any more.
+  static double left_at_parting(const Constants& k, const TouchedWall& w, double dt,
+                                const Vec3& tangential_history, const Vec3& rolling_history) {
+    const ContactBefore last = before(k, w, dt);
+    double energy = 0;
+    if (last.tangential_stiffness > 0) {
+      if constexpr (has_tangential_history)
+        energy += Tangential::stored(last.tangential_stiffness, w.radius, tangential_history) -
+                  Tangential::last_work(last, tangential_history, dt);
+      if constexpr (has_rolling_history)
+        energy += Rolling::stored(last.tangential_stiffness, w.radius, rolling_history) -
+                  Rolling::last_work(rolling_history, w.spin, dt);
+    }
+    return energy;
+  }
+
+private:
+  /// The wall is flat: the normal was the same.
+  static ContactBefore before(const Constants& k, const TouchedWall& w, double dt) {
+    const Vec3 normal = (1 / w.distance) * w.separation;
+    const double speed = dot(w.velocity, normal);
+    const double overlap = w.radius - w.distance + dt * speed;
+    Contact c{};
+    c.overlap = std::max(overlap, 0.0);
+    c.reduced_radius = w.radius;
+    c.reduced_mass = w.mass;
+    const double stiffness = Normal::force(k.normal, c).tangential_stiffness;
+    return {.tangential_stiffness = overlap > 0 ? stiffness : 0.0,
+            .slip =
+                w.velocity - speed * normal - cross((w.radius - 0.5 * overlap) * w.spin, normal)};
   }
 };
 

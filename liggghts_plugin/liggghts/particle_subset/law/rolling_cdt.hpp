@@ -14,6 +14,7 @@ namespace granflux::particle_subset {
 struct RollingCdt {
   static constexpr std::string_view name = "cdt";
   static constexpr bool acts = true;
+  static constexpr bool rubs = true; ///< resists by speed
   static constexpr int history = 0;
 
   struct Constants {
@@ -30,7 +31,7 @@ struct RollingCdt {
     const double size = k.rolling_friction * normal.stiffness * c.overlap * c.reduced_radius;
     const Vec3 whole = (spin > 0 ? size / spin : 0.0) * c.relative_spin;
     const Vec3 torque = whole - k.without_torsion * dot(whole, c.normal) * c.normal;
-    return {.on_j = torque, .sliding = 0, .against_spin = torque};
+    return {.on_j = torque, .against_spin = torque};
   }
 };
 

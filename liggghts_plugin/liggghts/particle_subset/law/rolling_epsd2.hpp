@@ -15,6 +15,7 @@ namespace granflux::particle_subset {
 struct RollingEpsd2 {
   static constexpr std::string_view name = "epsd2";
   static constexpr bool acts = true;
+  static constexpr bool rubs = false; ///< gives way by a slider
   static constexpr int history = 3;
 
   struct Constants {
@@ -39,14 +40,27 @@ struct RollingEpsd2 {
     // The slider gives way by what the spring is shortened, against the mean torque of the step.
     const double lost = 0.5 * (1 - held) * dot(before + old, elastic);
     const double stiffness = normal.tangential_stiffness * radius * radius;
-    return {
-        .on_j = old, .sliding = stiffness > 0 ? lost / (stiffness * dt) : 0.0, .against_spin = {}};
+    const double compliance = stiffness > 0 ? 1 / stiffness : 0.0;
+    // With it the work of the mean torque and what the spring stores are accounted for exactly.
+    const double stiffness_before = c.before.tangential_stiffness * radius * radius;
+    const bool held_before = stiffness_before > 0;
+    const double stored_before = held_before ? 0.5 * dot(before, before) / stiffness_before : 0.0;
+    const Vec3 mean = 0.5 * ((held_before ? 1.0 : 0.0) * before + old);
+    const double released = (stored_before - 0.5 * compliance * dot(old, old)) / dt;
+    const double sliding = compliance * lost / dt;
+    return {.on_j = old,
+            .sliding = sliding,
+            .spring = mean,
+            .turning = dot(mean, c.relative_spin) + released - sliding};
   }
 
   /// What the spring holds, whose torque the history is [J].
-  static double stored(double stiffness, double radius, const double* torque) {
-    const Vec3 t{torque[0], torque[1], torque[2]};
-    return stiffness > 0 ? 0.5 * dot(t, t) / (stiffness * radius * radius) : 0.0;
+  static double stored(double stiffness, double radius, const Vec3& torque) {
+    return stiffness > 0 ? 0.5 * dot(torque, torque) / (stiffness * radius * radius) : 0.0;
+  }
+  /// Work that its last torque does until it is gone, half a step long [J]. `spin`: relative.
+  static double last_work(const Vec3& torque, const Vec3& spin, double dt) {
+    return -0.5 * dt * dot(torque, spin);
   }
 };
 

@@ -11,7 +11,7 @@ namespace granflux::particle_subset {
 
 struct RollingOff {
   static constexpr std::string_view name = "off";
-  static constexpr bool acts = false;
+  static constexpr bool acts = false, rubs = false;
   static constexpr int history = 0;
   struct Constants {};
   static Constants constants(const Material&, int, int) { return {}; }

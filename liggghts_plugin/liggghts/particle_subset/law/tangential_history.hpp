@@ -16,6 +16,7 @@ namespace granflux::particle_subset {
 struct TangentialHistory {
   static constexpr std::string_view name = "history";
   static constexpr bool acts = true;
+  static constexpr bool rubs = false; ///< friction is by a slider, not by speed
   static constexpr int history = 3;
 
   struct Constants {
@@ -38,19 +39,30 @@ struct TangentialHistory {
     const double damping = slides ? 0.0 : normal.tangential_damping;
     elongation = held * spring;
     TangentialForce on_i{-normal.tangential_stiffness * elongation - damping * c.slip, {}};
+    on_i.dashpot = -damping * c.slip;
     // The slider gives way by what the spring is shortened, against the mean force of the step.
     on_i.heat.sliding =
         0.5 * normal.tangential_stiffness / dt * dot(before + elongation, (1 - held) * spring);
+    // With it the work of the mean force and what the spring stores are accounted for exactly.
+    const double stiffness_before = c.before.tangential_stiffness;
+    const double along_normal = dot(before, c.normal);
+    on_i.heat.turning = 0.5 / dt *
+                        ((stiffness_before - normal.tangential_stiffness) * dot(before, spring) +
+                         stiffness_before * (along_normal * along_normal +
+                                             dt * dot(before, c.before.slip - c.slip)));
     on_i.heat.slider_force = slides ? limit : 0.0;
     on_i.heat.slip_squared = dot(c.slip, c.slip);
-    on_i.heat.damping = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
+    on_i.heat.damping = damping * dot(c.slip, c.slip);
     return on_i;
   }
 
   /// What the spring holds [J].
-  static double stored(double stiffness, double /*radius*/, const double* elongation) {
-    const Vec3 s{elongation[0], elongation[1], elongation[2]};
-    return 0.5 * stiffness * dot(s, s);
+  static double stored(double stiffness, double /*radius*/, const Vec3& elongation) {
+    return 0.5 * stiffness * dot(elongation, elongation);
+  }
+  /// Work that its last force does until it is gone, half a step long [J].
+  static double last_work(const ContactBefore& before, const Vec3& elongation, double dt) {
+    return -0.5 * dt * before.tangential_stiffness * dot(elongation, before.slip);
   }
 };
 

@@ -14,6 +14,7 @@ namespace granflux::particle_subset {
 struct TangentialNoHistory {
   static constexpr std::string_view name = "no_history";
   static constexpr bool acts = true;
+  static constexpr bool rubs = true; ///< friction resists by speed
   static constexpr int history = 0;
 
   struct Constants {
@@ -24,13 +25,15 @@ struct TangentialNoHistory {
   }
 
   static TangentialForce force(const Constants& k, const Contact& c, const NormalForce& normal,
-                               double dt, Vec3&) {
+                               double, Vec3&) {
     const double speed = norm(c.slip);
     const double limit = k.friction * std::abs(normal.force);
     const bool slides = limit < normal.tangential_damping * speed;
     const double damping = slides ? limit / speed : normal.tangential_damping;
     TangentialForce on_i{-damping * c.slip, {}};
-    const double power = damping * dot(c.slip, mean_slip(c, on_i.force, dt));
+    const double power = damping * speed * speed;
+    on_i.rubbing = (slides ? 1.0 : 0.0) * on_i.force;
+    on_i.dashpot = on_i.force - on_i.rubbing;
     on_i.heat.sliding = slides ? power : 0.0;
     on_i.heat.slider_force = slides ? limit : 0.0;
     on_i.heat.slip_squared = speed * speed;

@@ -12,7 +12,7 @@ namespace granflux::particle_subset {
 /// Smooth spheres.
 struct TangentialOff {
   static constexpr std::string_view name = "off";
-  static constexpr bool acts = false;
+  static constexpr bool acts = false, rubs = false;
   static constexpr int history = 0;
   struct Constants {};
   static Constants constants(const Material&, int, int) { return {}; }
