@@ -28,5 +28,5 @@ def fault_of(text, commands, root, build):
         lines = [line for command, before in commands for line in (before, f"set -x; {command}", "{ set +x; } 2>&-")]
         env = {**os.environ, **MPI, "ROOT": str(root), "PATH": f"{build}/bin:{os.environ['PATH']}"}
         done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", "\n".join(lines)], cwd=folder, env=env, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=100, check=False)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=250, check=False)
         return None if done.returncode == 0 else f"exit code {done.returncode}\n{done.stdout[-3000:]}"
