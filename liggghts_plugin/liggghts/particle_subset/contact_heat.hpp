@@ -104,8 +104,8 @@ struct ContactHeatOptions {
 
   /// All that contacts dissipate is heat: what springs lose by steps of finite length is, too.
   [[nodiscard]] bool all_dissipated() const { return damping && friction == FrictionHeat::slider; }
-  /// The slider's own work is all that contacts make.
-  [[nodiscard]] bool slider_alone() const { return !damping && friction == FrictionHeat::slider; }
+  /// Contacts make nothing but the slider's own work, or not even that.
+  [[nodiscard]] bool slider_at_most() const { return !damping && friction != FrictionHeat::speed; }
 };
 
 /// The material of one type, with its true modulus where the spring is softened.

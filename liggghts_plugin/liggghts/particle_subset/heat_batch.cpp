@@ -50,13 +50,15 @@ void HeatBatch<made>::set_constants(const ContactBatch& b, int count, const int*
 /// The columns of friction and damping become what the options count of them.
 template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_groups) {
   const FrictionHeat friction = law_.options().friction;
-  if (friction == FrictionHeat::speed)
-    for (int k = 0; k < whole_groups; ++k)
-      friction_[k] = slider_force_[k] * std::sqrt(slip_squared_[k]) + rolling_[k];
-  else if (friction == FrictionHeat::off)
+  if (friction == FrictionHeat::off)
     std::fill_n(friction_, whole_groups, 0.0);
-  if (!law_.options().damping)
-    std::fill_n(damping_, whole_groups, 0.0);
+  if constexpr (made == HeatMade::by_any) {
+    if (friction == FrictionHeat::speed)
+      for (int k = 0; k < whole_groups; ++k)
+        friction_[k] = slider_force_[k] * std::sqrt(slip_squared_[k]) + rolling_[k];
+    if (!law_.options().damping)
+      std::fill_n(damping_, whole_groups, 0.0);
+  }
 }
 
 /// What the pairs' columns of rates hold, to the particles. Without branches where all are own:
@@ -124,8 +126,7 @@ template <HeatMade made>
 void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own, const int* type) {
   constexpr int lanes = ContactBatch::lanes;
   const int whole_groups = (count + lanes - 1) / lanes * lanes;
-  if constexpr (made == HeatMade::by_any)
-    count_what_is_made(whole_groups);
+  count_what_is_made(whole_groups);
   if (types_ > 1)
     set_constants(batch, count, type);
   if (arrays_.kept.now) {

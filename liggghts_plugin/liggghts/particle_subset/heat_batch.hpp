@@ -20,7 +20,7 @@ struct WithoutHeat {
 
 /// What contacts make of heat, as the options want it.
 enum class HeatMade {
-  by_slider, ///< ContactHeatOptions::slider_alone()
+  by_slider, ///< ContactHeatOptions::slider_at_most()
   by_any     ///< whatever else: found out batch by batch
 };
 

@@ -65,7 +65,7 @@ private:
                    const HeatOfContacts* heat, auto&& work) const {
     if (!heat || heat->rests())
       with_heat<WithoutHeat>(particles, contacts, dt, {}, work);
-    else if (heat->law->options().slider_alone())
+    else if (heat->law->options().slider_at_most())
       with_heat<HeatBatch<HeatMade::by_slider>>(particles, contacts, dt, *heat, work);
     else
       with_heat<HeatBatch<HeatMade::by_any>>(particles, contacts, dt, *heat, work);
