@@ -188,6 +188,11 @@ void GasSolver::Impl::project(double new_time, Drive drive, const MomentumExchan
     if (exchange) {
       set_drag_slope(*exchange);
       has_drag = true;
+    } else if (has_drag) {
+      for (auto& slope : drag_slope)
+        for (Field& component : slope)
+          component.fill(0);
+      has_drag = false;
     }
     set_pressure_gradient(drive, pass == corrections ? After::set_velocity : After::nothing);
   }

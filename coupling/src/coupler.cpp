@@ -341,7 +341,6 @@ void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& s
   sums.particles = double(weights.placed_count());
   sums.outside = double(weights.outside_count());
   deposit(volume);
-  displaced = true;
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const cfd::Block& block = mesh.local[b];
     // Before it becomes 1 - eps, which has no digits left for a single small particle.
@@ -725,6 +724,7 @@ bool Coupler::Impl::any_placed() const {
 void Coupler::Impl::exchange_two_way(const ParticleView& view, double interval,
                                      ExchangeSums& sums) {
   find_void_fraction(view, sums);
+  displaced = true;
   sample_old_gas();
   {
     const Stopwatch watch(times.laws);
@@ -800,6 +800,7 @@ void Coupler::initialise(const ParticleView& view, double time) {
   if (s.options.effects.two_way) {
     ExchangeSums sums;
     s.find_void_fraction(view, sums);
+    s.displaced = s.any_placed();
   }
   s.gas.initialise(s.void_fraction, s.gas_case.initial_velocity, time);
   s.initialised = true;
