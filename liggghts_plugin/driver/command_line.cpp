@@ -12,6 +12,7 @@
 #include <omp.h>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/version.hpp>
 
 namespace granflux::driver {
 
@@ -62,6 +63,11 @@ int take_threads(int& argc, char** argv) {
   const int threads = word ? number_of_threads("-threads", *word) : threads_of_environment();
   omp_set_num_threads(threads);
   return threads;
+}
+
+void print_version(std::string_view launcher, std::string_view host) {
+  fmt::print("{} {}, revision {}\ncompiler: {}\nflags: {}\nhost: {}\n", launcher, version, revision,
+             compiler, compiler_flags, host);
 }
 
 void refuse_to_start(const std::string& reason) {

@@ -17,6 +17,9 @@ std::optional<std::string_view> take_option(int& argc, char** argv, std::string_
 /// not a number of threads.
 int take_threads(int& argc, char** argv);
 
+/// What `-version` prints of a launcher: how it was built, and against which release of its host.
+void print_version(std::string_view launcher, std::string_view host);
+
 /// Instead of a start: the reason, told by rank 0, and the end of MPI.
 void refuse_to_start(const std::string& reason);
 

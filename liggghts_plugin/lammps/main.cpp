@@ -19,7 +19,6 @@
 
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/out_of_memory.hpp>
-#include <granflux/version.hpp>
 
 #include "driver/command_line.hpp"
 #include "driver/peak_memory.hpp"
@@ -27,12 +26,6 @@
 #include "driver/thread_placement.hpp"
 
 namespace {
-
-void print_version() {
-  fmt::print("granflux_lammps {}, revision {}\ncompiler: {}\nflags: {}\nhost: LAMMPS {}\n",
-             granflux::version, granflux::revision, granflux::compiler, granflux::compiler_flags,
-             GRANFLUX_LAMMPS_RELEASE);
-}
 
 /// LAMMPS looks at the environment for the number of threads, at its start and after `clear`.
 void pass_on_threads(int threads) {
@@ -43,7 +36,8 @@ void pass_on_threads(int threads) {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "-version") {
-    print_version();
+    granflux::driver::print_version("granflux_lammps",
+                                    fmt::format("LAMMPS {}", GRANFLUX_LAMMPS_RELEASE));
     return 0;
   }
   std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of its write

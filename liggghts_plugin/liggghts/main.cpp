@@ -21,7 +21,6 @@
 
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/out_of_memory.hpp>
-#include <granflux/version.hpp>
 
 #include "driver/command_line.hpp"
 #include "driver/peak_memory.hpp"
@@ -33,11 +32,6 @@
 namespace {
 
 constexpr std::string_view host_version = GRANFLUX_HOST_VERSION;
-
-void print_version() {
-  fmt::print("granflux {}, revision {}\ncompiler: {}\nflags: {}\nhost: {}\n", granflux::version,
-             granflux::revision, granflux::compiler, granflux::compiler_flags, host_version);
-}
 
 /// The plugin derives from classes of the library, whose layout belongs to one build of it.
 void check_host(LAMMPS_NS::LAMMPS& lammps) {
@@ -62,7 +56,7 @@ void install_signal_handlers() {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "-version") {
-    print_version();
+    granflux::driver::print_version("granflux", host_version);
     return 0;
   }
   install_signal_handlers();

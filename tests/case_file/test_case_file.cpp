@@ -1,26 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <mpi.h>
-#include <unistd.h>
 
 #include <granflux/cfd/case_file.hpp>
 
 #include "expect_config_error.hpp"
+#include "rank_folder.hpp"
 
 using granflux::Vec3;
 using granflux::test::config_error;
+using granflux::test::rank_here;
+using granflux::test::RankFolder;
 using namespace granflux::cfd;
 
 namespace {
-
-int rank_here() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
 
 /// Message of a getter on the table [t] with the given lines.
 template <class Get> std::string error_of(const std::string& lines, Get get) {
@@ -206,16 +201,13 @@ TEST(CaseFileError, SyntaxErrorHasLineAndColumn) {
 }
 
 TEST(CaseFileRead, AllRanksGetTheTextThatRankZeroReads) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("granflux_case_" + std::to_string(getppid()) + ".toml");
+  const RankFolder folder;
+  const auto path = folder.path / "case.toml";
   if (rank_here() == 0)
     std::ofstream(path) << "[t]\na = 1.25\n";
   CaseFile file = CaseFile::read(path.string(), MPI_COMM_WORLD);
   EXPECT_EQ(file.table("t").number("a", positive, ""), 1.25);
   EXPECT_EQ(file.name(), path.string());
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_here() == 0)
-    std::filesystem::remove(path);
 }
 
 TEST(CaseFileRead, OnlyRankZeroNeedsToSeeTheFile) {

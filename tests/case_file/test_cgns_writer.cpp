@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <cgnslib.h>
 
@@ -13,40 +12,16 @@
 #include <granflux/cfd/error.hpp>
 
 #include "expect_config_error.hpp"
+#include "rank_folder.hpp"
 
 using granflux::NumericalError;
 using granflux::Vec3;
 using granflux::test::config_error;
+using granflux::test::rank_here;
+using granflux::test::RankFolder;
 using namespace granflux::cfd;
 
 namespace {
-
-int rank_here() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-/// A folder of this test alone, the same on all ranks; gone at the end.
-class Folder {
-public:
-  Folder() {
-    int id = int(getpid());
-    MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path = std::filesystem::temp_directory_path() / ("granflux_cgns_" + std::to_string(id));
-    if (rank_here() == 0)
-      std::filesystem::create_directory(path);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  ~Folder() {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_here() == 0)
-      std::filesystem::remove_all(path);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path path;
-};
 
 /// Stretched along y, four blocks.
 Mesh box() {
@@ -148,7 +123,7 @@ void check_zone(const Zone& zone) {
 } // namespace
 
 TEST(CgnsWriter, FilesReadBackWithTheirGridValuesAndTimes) {
-  const Folder folder;
+  const RankFolder folder;
   const Mesh mesh = box();
   const Fields fields = fields_on(mesh);
   CgnsWriter writer(mesh, (folder.path / "gas").string());
@@ -183,7 +158,7 @@ TEST(CgnsWriter, FilesReadBackWithTheirGridValuesAndTimes) {
 }
 
 TEST(CgnsWriter, GoesOnCountingAfterARestart) {
-  const Folder folder;
+  const RankFolder folder;
   const Mesh mesh = box();
   const Fields fields = fields_on(mesh);
   CgnsWriter writer(mesh, (folder.path / "gas").string(), 41);
@@ -199,7 +174,7 @@ TEST(CgnsWriter, AMissingFolderIsAnErrorOnAllRanksBeforeTheFirstStep) {
 }
 
 TEST(CgnsWriter, ANameTooLongForTheFormatIsRefused) {
-  const Folder folder;
+  const RankFolder folder;
   const Mesh mesh = box();
   const Fields fields = fields_on(mesh);
   CgnsWriter writer(mesh, (folder.path / "gas").string());
@@ -210,7 +185,7 @@ TEST(CgnsWriter, ANameTooLongForTheFormatIsRefused) {
 }
 
 TEST(CgnsWriter, AFolderThatVanishesDuringTheRunIsAnErrorOnAllRanks) {
-  const Folder folder;
+  const RankFolder folder;
   const Mesh mesh = box();
   const Fields fields = fields_on(mesh);
   const auto inner = folder.path / "inner";
@@ -226,7 +201,7 @@ TEST(CgnsWriter, AFolderThatVanishesDuringTheRunIsAnErrorOnAllRanks) {
 }
 
 TEST(CgnsWriter, AFileThatCannotGrowIsAnErrorOnAllRanks) {
-  const Folder folder;
+  const RankFolder folder;
   const Mesh mesh = box();
   const Fields fields = fields_on(mesh);
   CgnsWriter writer(mesh, (folder.path / "gas").string());

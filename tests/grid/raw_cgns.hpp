@@ -2,46 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include <cgnslib.h>
 
 #include <granflux/cfd/mesh.hpp>
 
+#include "rank_folder.hpp"
+
 namespace granflux::cfd::testing {
 
-inline int rank_here() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-/// A folder of this program alone, the same on all ranks; gone at the end.
-class Folder {
-public:
-  Folder() {
-    int id = int(getpid());
-    MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path = std::filesystem::temp_directory_path() / ("granflux_grid_" + std::to_string(id));
-    if (rank_here() == 0)
-      std::filesystem::create_directory(path);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  ~Folder() {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_here() == 0)
-      std::filesystem::remove_all(path);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path path;
-};
+using granflux::test::rank_here;
+using granflux::test::RankFolder;
 
 /// How another program might write a grid.
 struct RawCgns {

@@ -70,7 +70,7 @@ struct Fields {
 } // namespace
 
 TEST(CgnsReader, ReadsBackWhatTheWriterWrote) {
-  const Folder folder;
+  const RankFolder folder;
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   for (const Grid& grid : {drum(0, false), drum(1, true), drum(2, true), gap()}) {
@@ -86,7 +86,7 @@ TEST(CgnsReader, ReadsBackWhatTheWriterWrote) {
 }
 
 TEST(CgnsReader, BoundariesKeepTheirNamesWhereTheFormatTakesThem) {
-  const Folder folder;
+  const RankFolder folder;
   const Mesh mesh = make_mesh(split_for_ranks(gap(), 4), MPI_COMM_WORLD);
   const Fields fields(mesh);
   CgnsWriter writer(mesh, (folder.path / "gas").string());
@@ -99,7 +99,7 @@ TEST(CgnsReader, BoundariesKeepTheirNamesWhereTheFormatTakesThem) {
 
 // Zones counted in any of the 48 ways, half of them left-handed, with every kind of description.
 TEST(CgnsReader, TakesZonesOfAnyOrientation) {
-  const Folder folder;
+  const RankFolder folder;
   std::mt19937 random(17);
   const auto all = orientations();
   const std::string path = (folder.path / "cube.cgns").string();
@@ -122,7 +122,7 @@ TEST(CgnsReader, TakesZonesOfAnyOrientation) {
 }
 
 TEST(CgnsReader, UnitsAndPrecisionAreThoseOfTheFile) {
-  const Folder folder;
+  const RankFolder folder;
   const std::string path = (folder.path / "cube.cgns").string();
   const Grid cube = bent_cube();
   RawCgns raw;
@@ -152,7 +152,7 @@ TEST(CgnsReader, UnitsAndPrecisionAreThoseOfTheFile) {
 }
 
 TEST(CgnsReader, ARankReadsItsOwnBlocksOfALargerMesh) {
-  const Folder folder;
+  const RankFolder folder;
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const std::string path = (folder.path / "cube.cgns").string();
@@ -168,7 +168,7 @@ namespace {
 
 /// Message for the bent cube written in some way, without the file's name.
 std::string refusal(const RawCgns& raw, bool periodic = false, const std::string& base = "") {
-  const Folder folder;
+  const RankFolder folder;
   const std::string path = (folder.path / "cube.cgns").string();
   write_raw(path, bent_cube(periodic), raw);
   const std::string message = config_error([&] {
@@ -274,7 +274,7 @@ TEST(CgnsReaderRefuses, ConditionsThatAreNoRectangleOfFaces) {
 }
 
 TEST(CgnsReaderRefuses, FilesThatAreNone) {
-  const Folder folder;
+  const RankFolder folder;
   const auto message = [](const std::string& path) {
     const std::string text = config_error([&] {
       (void)read_cgns_grid({path, "", {}}, MPI_COMM_WORLD);
@@ -298,7 +298,7 @@ TEST(CgnsReaderRefuses, FilesThatAreNone) {
 }
 
 TEST(CgnsReaderRefuses, AFileThatOnlyOneRankCanRead) {
-  const Folder folder;
+  const RankFolder folder;
   const std::string path = (folder.path / "cube.cgns").string();
   write_raw(path, bent_cube());
   const CgnsGrid grid{rank_here() == 0 ? path : path + ".elsewhere", "", {}};

@@ -193,6 +193,18 @@ class HostTest(unittest.TestCase):
         self.assertNotIn("ERROR", output)
         return output
 
+    def closed_books(self, output, gas_momentum=1e-10):
+        """Rows of an output with thermo(); void volume, momentum and gas mass must close in each."""
+        rows = thermo_rows(output)
+        self.assertGreater(len(rows), 2, output)
+        for row in rows:
+            void_volume, momentum, gas_mass, of_the_gas = row[-4:]
+            self.assertLess(void_volume, 1e-12)
+            self.assertLess(momentum, 1e-12)
+            self.assertLess(gas_mass, 1e-9)
+            self.assertLess(of_the_gas, gas_momentum)
+        return rows
+
 
 def thermo_rows(output):
     """Rows of all thermo tables of an output, as lists of numbers; other lines between are skipped."""
