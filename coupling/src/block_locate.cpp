@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -238,103 +239,121 @@ double BlockLocator::room(const Index3& cell, const Vec3& x) const {
 }
 
 /// Finds the cells of the points of one set: of all points at once whether they lie in a cell, then
-/// of the cell that the first of those left leads to.
+/// of the cell that the first of those left leads to. A set of points is one bit for each.
 class BlockLocator::PointSearch {
 public:
   PointSearch(const BlockLocator& blocks, const PointSet& points, const Vec3& centre, double radius)
-      : blocks_(blocks), points_(points), centre_(centre), radius_(float(radius)) {
-    part_.fill(none);
-  }
+      : blocks_(blocks), points_(points), centre_(centre), radius_(float(radius)) {}
 
   PointsInCells from(int near) {
+    left_ = points_.count == most ? ~0u : (1u << points_.count) - 1;
     take(near);
-    int at = near;
-    for (int k = first_left(); k < points_.count; k = first_left()) {
-      const int next = outermost(blocks_.cells_[std::size_t(at)], place(k)).across;
-      if (next != none && !has(next)) {
-        at = next;
-        take(at);
-      } else {
-        search(k, near);
-        at = near;
-      }
+    while (left_ != 0) {
+      const int k = std::countr_zero(left_);
+      if (const int next = cells_ < most ? leads_to(k, near) : none; next != none)
+        take(next);
+      else
+        search(k);
     }
     return in_order();
   }
 
 private:
   static constexpr int most = PointSet::most;
+  struct Taken {
+    int cell; ///< number
+    std::uint32_t points;
+  };
 
   [[nodiscard]] Vec3 place(int k) const {
     const auto n = std::size_t(k);
     return centre_ + double(radius_) * Vec3{points_.x[n], points_.y[n], points_.z[n]};
   }
-  [[nodiscard]] bool has(int cell) const {
-    return std::find(cell_.begin(), cell_.begin() + cells_, cell) != cell_.begin() + cells_;
+  [[nodiscard]] int slot(int cell) const {
+    int s = 0;
+    while (s < cells_ && taken_[std::size_t(s)].cell != cell)
+      ++s;
+    return s;
   }
-  [[nodiscard]] int first_left() const {
-    int first = most;
-    for (int k = most - 1; k >= 0; --k)
-      first = part_[std::size_t(k)] == none ? k : first;
-    return first;
+
+  /// The first cell on the way to a point that has not been looked at, or none.
+  [[nodiscard]] int leads_to(int k, int near) const {
+    constexpr int most_steps = 4;
+    int at = near;
+    for (int step = 0; step < most_steps && at != none; ++step) {
+      at = outermost(blocks_.cells_[std::size_t(at)], place(k)).across;
+      if (slot(at) == cells_)
+        return at;
+    }
+    return none;
   }
 
   /// The points that surely lie in a cell.
   void take(int number) {
+    constexpr std::size_t sides = 6;
     const Cell& cell = blocks_.cells_[std::size_t(number)];
     const Vec3 away = centre_ - cell.middle;
     const std::array at{float(away.x), float(away.y), float(away.z)};
-    alignas(64) std::array<float, most> beyond;
-    beyond.fill(-std::numeric_limits<float>::infinity());
-    for (const Face& f : cell.faces) {
-      const float height =
-          f.normal[0] * at[0] + f.normal[1] * at[1] + f.normal[2] * at[2] - f.inner;
-      const float nx = radius_ * f.normal[0], ny = radius_ * f.normal[1],
-                  nz = radius_ * f.normal[2];
-      for (std::size_t k = 0; k < most; ++k) {
-        const float h = height + nx * points_.x[k] + ny * points_.y[k] + nz * points_.z[k];
-        beyond[k] = h > beyond[k] ? h : beyond[k];
-      }
+    std::array<float, sides> height, nx, ny, nz;
+    for (std::size_t s = 0; s < sides; ++s) {
+      const Face& f = cell.faces[s];
+      height[s] = f.normal[0] * at[0] + f.normal[1] * at[1] + f.normal[2] * at[2] - f.inner;
+      nx[s] = radius_ * f.normal[0];
+      ny[s] = radius_ * f.normal[1];
+      nz[s] = radius_ * f.normal[2];
     }
-    const int part = cells_;
+    std::uint32_t inside = 0;
     float room = room_;
+#pragma omp simd reduction(| : inside) reduction(min : room)
     for (std::size_t k = 0; k < most; ++k) {
-      const bool taken = (part_[k] == none) & (beyond[k] < 0);
-      part_[k] = taken ? part : part_[k];
-      const float left = taken ? -beyond[k] : room_;
-      room = left < room ? left : room;
+      float beyond = height[0] + nx[0] * points_.x[k] + ny[0] * points_.y[k] + nz[0] * points_.z[k];
+#pragma GCC unroll 8
+      for (std::size_t s = 1; s < sides; ++s) {
+        const float h =
+            height[s] + nx[s] * points_.x[k] + ny[s] * points_.y[k] + nz[s] * points_.z[k];
+        beyond = h > beyond ? h : beyond;
+      }
+      const std::uint32_t bit = left_ & (1u << k);
+      const bool taken = (bit != 0) & (beyond < 0);
+      inside |= taken ? bit : 0u;
+      const float own = taken ? -beyond : room_;
+      room = own < room ? own : room;
     }
     room_ = room;
-    cell_[std::size_t(cells_++)] = number;
+    left_ &= ~inside;
+    taken_[std::size_t(cells_++)] = {number, inside};
   }
 
-  /// A point that planes do not tell.
-  void search(int k, int near) {
+  /// A point that planes do not tell. Outside all cells it counts with the centre.
+  void search(int k) {
+    const std::uint32_t bit = 1u << k;
     const int found = blocks_.find(place(k));
-    const int cell = found == none ? near : found;
-    int part = 0;
-    while (part < cells_ && cell_[std::size_t(part)] != cell)
-      ++part;
-    if (part == cells_)
-      cell_[std::size_t(cells_++)] = cell;
-    part_[std::size_t(k)] = part;
-    room_ = found == none ? std::min(room_, float(blocks_.away_from_all(place(k)))) : 0;
+    if (found == none) {
+      taken_[0].points |= bit;
+      room_ = std::min(room_, float(blocks_.away_from_all(place(k))));
+    } else {
+      const int s = slot(found);
+      if (s == cells_)
+        take(found);
+      if ((left_ & bit) == 0)
+        return;
+      taken_[std::size_t(s)].points |= bit; // next to a face
+      room_ = 0;
+    }
+    left_ &= ~bit;
   }
 
-  [[nodiscard]] PointsInCells in_order() const {
+  [[nodiscard]] PointsInCells in_order() {
+    const auto end = std::remove_if(taken_.begin(), taken_.begin() + cells_,
+                                    [](const Taken& t) { return t.points == 0; });
+    std::sort(taken_.begin(), end, [](const Taken& a, const Taken& b) {
+      return std::countr_zero(a.points) < std::countr_zero(b.points);
+    });
     PointsInCells found;
     found.room = double(room_);
-    std::array<int, 2 * most> place;
-    place.fill(none);
-    for (int k = 0; k < points_.count; ++k) {
-      const int part = part_[std::size_t(k)];
-      int& at = place[std::size_t(part)];
-      if (at == none) {
-        at = found.count++;
-        found.parts[std::size_t(at)] = {blocks_.in_stack(cell_[std::size_t(part)]), 0};
-      }
-      ++found.parts[std::size_t(at)].points;
-    }
+    for (auto t = taken_.begin(); t != end; ++t)
+      found.parts[std::size_t(found.count++)] = {blocks_.in_stack(t->cell),
+                                                 std::popcount(t->points)};
     return found;
   }
 
@@ -342,8 +361,8 @@ private:
   const PointSet& points_;
   const Vec3 centre_;
   const float radius_;
-  alignas(64) std::array<int, most> part_; ///< of each point, in cell_, or none
-  std::array<int, 2 * most> cell_{};       ///< numbers of those looked at
+  std::uint32_t left_ = 0;            ///< points whose cell is not known yet
+  std::array<Taken, 2 * most> taken_; ///< cells looked at, that of the centre first
   int cells_ = 0;
   float room_ = std::numeric_limits<float>::max();
 };

@@ -274,7 +274,7 @@ TEST(Kernels, DividedOnFittedGrids) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> along(-0.5, 0.5);
   using Shares = std::vector<std::pair<cfd::Index3, double>>;
-  int several = 0, at_walls = 0;
+  int several = 0, at_walls = 0, without_room = 0;
   for (int p = 0; p < 5000; ++p) {
     const Vec3 centre{along(random), along(random), 0.4 + 0.8 * along(random)};
     const double radius = 0.02 + 0.2 * std::abs(along(random));
@@ -301,9 +301,11 @@ TEST(Kernels, DividedOnFittedGrids) {
     EXPECT_EQ(found, wanted);
     EXPECT_LT(room, 0.5);
     several += found.size() > 2;
+    without_room += !(room > 0); // searched for anew in every coupling step
   }
   EXPECT_GT(several, 1000);
   EXPECT_GT(at_walls, 1000);
+  EXPECT_LT(without_room, 15);
 }
 
 } // namespace
