@@ -11,9 +11,8 @@
 
 #include <liggghts/atom.h>
 
-#include <liggghts/atom_vec.h>
-
 #include "axis_order.hpp"
+#include "reorder.hpp"
 
 namespace granflux::particle_subset {
 
@@ -36,32 +35,9 @@ Extent extent_of(const LAMMPS_NS::Atom& atom) {
   return {low, {high[0] - low[0], high[1] - low[1], high[2] - low[2]}};
 }
 
-/// Moves the particles, each with all that fixes keep of it: number k becomes what from[k] was.
-/// `from` is used up.
-void permute(LAMMPS_NS::Atom& atom, std::vector<int>& from) {
-  const int spare = atom.nlocal;
-  if (spare == atom.nmax)
-    atom.avec->grow(0);
-  for (int first = 0; first < spare; ++first) {
-    if (from[first] == first)
-      continue;
-    // One cycle: its first particle waits in the spare place until the cycle has come round.
-    atom.avec->copy(first, spare, 0);
-    int k = first;
-    while (from[k] != first) {
-      const int source = from[k];
-      atom.avec->copy(source, k, 0);
-      from[k] = k;
-      k = source;
-    }
-    atom.avec->copy(spare, k, 0);
-    from[k] = k;
-  }
-}
-
 } // namespace
 
-void SpatialOrder::sort(LAMMPS_NS::Atom& atom, double size) {
+void SpatialOrder::sort(LAMMPS_NS::Atom& atom, LAMMPS_NS::Modify& modify, double size) {
   const int count = atom.nlocal;
   if (count < 2 || !(size > 0))
     return;
@@ -93,7 +69,7 @@ void SpatialOrder::sort(LAMMPS_NS::Atom& atom, double size) {
   from_.resize(std::size_t(count));
   for (int i = 0; i < count; ++i)
     from_[std::size_t(start_[cell_[i]]++)] = i;
-  permute(atom, from_);
+  reorder(atom, modify, from_);
 }
 
 } // namespace granflux::particle_subset

@@ -6,7 +6,8 @@
 
 namespace LAMMPS_NS {
 class Atom;
-}
+class Modify;
+} // namespace LAMMPS_NS
 
 namespace granflux::particle_subset {
 
@@ -18,7 +19,7 @@ class SpatialOrder {
 public:
   /// Cells are cubes of `size` metres, larger where there would be far more of them than particles.
   /// Particles of one cell keep their order. Not collective; there must be no ghosts.
-  void sort(LAMMPS_NS::Atom& atom, double size);
+  void sort(LAMMPS_NS::Atom& atom, LAMMPS_NS::Modify& modify, double size);
 
 private:
   std::vector<int> start_; // of each cell

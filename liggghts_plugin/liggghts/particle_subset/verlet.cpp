@@ -163,7 +163,7 @@ void Verlet::sort_particles() {
     atom->sort();
     return;
   }
-  order_.sort(*atom, 0.5 * neighbor->cutneighmax);
+  order_.sort(*atom, *modify, 0.5 * neighbor->cutneighmax);
   atom->nextsort = (update->ntimestep / atom->sortfreq + 1) * atom->sortfreq;
 }
 
