@@ -132,7 +132,7 @@ void BlockLocator::find_periods(const cfd::Mesh& mesh) {
                           "end of the grid; there is one by (" +
                           std::to_string(shift.x) + ", " + std::to_string(shift.y) + ", " +
                           std::to_string(shift.z) + ") m");
-      extent_.periodic[std::size_t(along)] = true;
+      extent_.periodic[std::size_t(along)] = any_period_ = true;
     }
 }
 
@@ -501,7 +501,7 @@ std::optional<Index3> BlockLocator::cell(const Vec3& x) const {
   return found == none ? std::nullopt : std::optional(in_stack(found));
 }
 
-Vec3 BlockLocator::fold(const Vec3& x) const {
+Vec3 BlockLocator::image(const Vec3& x) const {
   Vec3 image = x;
   for (int d = 0; d < 3; ++d) {
     if (!extent_.periodic[std::size_t(d)] || (extent_.low[d] <= x[d] && x[d] <= extent_.high[d]))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <omp.h>
+#include <utility>
 
 namespace granflux::coupling {
 
@@ -65,10 +66,16 @@ Window CubeShares<n>::find_window(const SplineKernel<n>& kernel, const LatticeLo
   return all.placed > 0 ? all.window : Window{};
 }
 
+template <int n> void CubeShares<n>::set_lowest(std::size_t p, std::uint32_t cell, Moves& moves) {
+  if (lowest_[p] != cell) [[unlikely]]
+    moves.push_back({std::uint32_t(p), std::exchange(lowest_[p], cell), cell});
+}
+
 /// False where it has left the cells that may be the lowest of a cube in the window.
 template <int n>
-bool CubeShares<n>::place(std::size_t p, const CellCube<n>& cube, const Window& lowest) {
-  lowest_[p] = std::uint32_t(window_.index(cube.lowest));
+bool CubeShares<n>::place(std::size_t p, const CellCube<n>& cube, const Window& lowest,
+                          Moves& moves) {
+  set_lowest(p, std::uint32_t(window_.index(cube.lowest)), moves);
   others_[p] = cube.others;
   return lowest.contains(cube.lowest);
 }
@@ -77,7 +84,8 @@ bool CubeShares<n>::place(std::size_t p, const CellCube<n>& cube, const Window& 
 /// where that does not do, and where a particle has left the window.
 template <int n>
 bool CubeShares<n>::place_block(const LatticeLocator& lattice, const Vec3* position,
-                                std::size_t first, std::size_t count, const Window& lowest) {
+                                std::size_t first, std::size_t count, const Window& lowest,
+                                Moves& moves) {
   if constexpr (n != 2)
     return false;
   else {
@@ -90,17 +98,25 @@ bool CubeShares<n>::place_block(const LatticeLocator& lattice, const Vec3* posit
     const auto [nx, ny, nz] = window_.extent();
     const auto [bx, by, bz] = window_.lo;
     const auto [lx, ly, lz] = lowest.extent();
+    std::array<std::uint32_t, block> cell;
     int left = 0;
-#pragma omp simd reduction(| : left)
+    std::uint32_t changed = 0;
+#pragma omp simd reduction(| : left, changed)
     for (std::size_t i = 0; i < count; ++i) {
       const int ix = lower[0][i] - bx, iy = lower[1][i] - by, iz = lower[2][i] - bz;
       left |=
           int(ix < 0) | int(iy < 0) | int(iz < 0) | int(ix >= lx) | int(iy >= ly) | int(iz >= lz);
-      lowest_[first + i] = std::uint32_t(ix + nx * (iy + ny * iz));
+      cell[i] = std::uint32_t(ix + nx * (iy + ny * iz));
+      changed |= cell[i] ^ lowest_[first + i];
     }
+    if (left)
+      return false;
+    if (changed != 0)
+      for (std::size_t i = 0; i < count; ++i)
+        set_lowest(first + i, cell[i], moves);
     for (std::size_t i = 0; i < count; ++i)
       others_[first + i] = {{{upper[0][i]}, {upper[1][i]}, {upper[2][i]}}};
-    return !left;
+    return true;
   }
 }
 
@@ -109,33 +125,33 @@ template <int n>
 std::optional<Placing>
 CubeShares<n>::place_all(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
                          const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
-  const auto nowhere = std::uint32_t(window_.size());
   const cfd::Index3 many = widths(lattice, n);
   const Window lowest{
       window_.lo,
       {window_.hi[0] - many[0] + 1, window_.hi[1] - many[1] + 1, window_.hi[2] - many[2] + 1}};
   bool left = false;
   Placing all = over_runs(particles.size(), [&](std::size_t begin, std::size_t end, Placing& mine) {
+    Moves& moves = moves_[std::size_t(omp_get_thread_num())];
     bool one_left = false;
     for (std::size_t first = begin, last; first < end; first = last) {
       last = std::min(first + block, end);
       if (particles.coupled.empty() &&
-          place_block(lattice, particles.position.data(), first, last - first, lowest)) {
+          place_block(lattice, particles.position.data(), first, last - first, lowest, moves)) {
         std::fill(placed.begin() + std::ptrdiff_t(first), placed.begin() + std::ptrdiff_t(last), 1);
         mine.placed += last - first;
         continue;
       }
       for (std::size_t p = first; p < last; ++p) {
-        placed[p] = 0;
-        lowest_[p] = nowhere;
-        if (!particles.takes_part(p))
-          continue;
-        if (const auto cube = kernel.cube(lattice, lattice.fold(particles.position[p]))) {
-          placed[p] = 1;
+        const auto cube = particles.takes_part(p)
+                              ? kernel.cube(lattice, lattice.fold(particles.position[p]))
+                              : std::nullopt;
+        placed[p] = cube.has_value();
+        if (cube) {
           ++mine.placed;
-          one_left |= !place(p, *cube, lowest);
+          one_left |= !place(p, *cube, lowest, moves);
         } else {
-          ++mine.outside;
+          mine.outside += particles.takes_part(p);
+          set_lowest(p, CellOrder::nowhere, moves);
         }
       }
     }
@@ -154,14 +170,19 @@ Placing CubeShares<n>::build(const SplineKernel<n>& kernel, const LatticeLocator
                              const ParticlesToPlace& particles, std::span<std::uint8_t> placed) {
   constexpr int keep_window =
       64; // builds, before it is looked at anew: particles may have drawn together
+  bool sorted = lowest_.size() == particles.size();
   lowest_.resize(particles.size());
   others_.resize(particles.size());
+  moves_.resize(std::size_t(omp_get_max_threads()));
+  for (Moves& of_thread : moves_)
+    of_thread.clear();
   std::optional<Placing> all;
   if (builds_left_ > 0 && within(window_, lattice)) {
     --builds_left_;
     all = place_all(kernel, lattice, particles, placed);
   }
   if (!all || all->placed == 0) {
+    sorted = false;
     window_ = find_window(kernel, lattice, particles);
     builds_left_ = keep_window;
     all = place_all(kernel, lattice, particles, placed);
@@ -176,7 +197,13 @@ Placing CubeShares<n>::build(const SplineKernel<n>& kernel, const LatticeLocator
                           std::size_t(extent[0]) *
                               (std::size_t(std::min(j, many[1] - 1)) +
                                std::size_t(extent[1]) * std::size_t(std::min(k, many[2] - 1)));
-  by_cell_.renew(window_.size(), lowest_);
+  if (!sorted || !by_cell_.mend(moves_))
+    by_cell_.sort(window_.size(), [&](int t, int threads, auto&& visit) {
+      const std::size_t end = run_begin(lowest_.size(), t + 1, threads);
+      for (std::size_t p = run_begin(lowest_.size(), t, threads); p < end; ++p)
+        if (lowest_[p] != CellOrder::nowhere)
+          visit(lowest_[p], std::uint32_t(p));
+    });
   return *all;
 }
 

@@ -360,10 +360,14 @@ TEST(Weights, KeptSharesAreThoseFoundAnew) {
     build(fine);
     omp_set_num_threads(threads);
     build(fine);
-    for (auto* numbers : {&cloud.radius, &cloud.value})
-      numbers->resize(450);
-    cloud.position.resize(450), coupled.resize(450);
-    build(fine);
+    for (const std::size_t count : {450, 470, 490, 600}) { // of other ranks, or new
+      for (auto* numbers : {&cloud.radius, &cloud.value})
+        numbers->resize(count, 0.02);
+      cloud.position.resize(count, cloud.position[7]), coupled.resize(count, 1);
+      build(fine);
+      std::swap(cloud.position.front(), cloud.position.back());
+      build(fine);
+    }
   }
 }
 

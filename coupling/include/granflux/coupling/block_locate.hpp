@@ -62,7 +62,7 @@ public:
   /// Another for each locator that is made of a mesh: what was found by one serves its copies.
   [[nodiscard]] long edition() const { return edition_; }
   /// The periodic image of x that lies within the extent of the mesh along periodic directions.
-  [[nodiscard]] Vec3 fold(const Vec3& x) const;
+  [[nodiscard]] Vec3 fold(const Vec3& x) const { return any_period_ ? image(x) : x; }
   [[nodiscard]] const GridExtent& extent() const { return extent_; }
 
 private:
@@ -100,6 +100,7 @@ private:
 
   void gather_nodes(const cfd::Mesh& mesh);
   void find_periods(const cfd::Mesh& mesh);
+  [[nodiscard]] Vec3 image(const Vec3& x) const;
   void fill_bins();
   [[nodiscard]] std::array<Vec3, 8> corners(const Cell& c) const;
   static void find_faces(Cell& cell, const std::array<Vec3, 8>& node);
@@ -122,6 +123,7 @@ private:
   std::vector<Nodes> blocks_;
   std::vector<int> block_of_layer_; ///< of the stack
   GridExtent extent_;
+  bool any_period_ = false;
   cfd::Index3 bins_{1, 1, 1};
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> bin_start_;  ///< of each bin in candidates_, and the end

@@ -15,8 +15,10 @@ namespace granflux::coupling {
 class CountingSort {
 public:
   /// items(t, n, visit) calls visit(bin, item) for each item of the run of thread t of n, in order;
-  /// it is called twice. put(item, bin, place) is told where each item goes.
-  template <class Items, class Put> void sort(std::size_t bins, Items&& items, Put&& put);
+  /// it is called twice. make_room(count) is told how many there are, then put(item, bin, place)
+  /// where each item goes.
+  template <class Items, class MakeRoom, class Put>
+  void sort(std::size_t bins, Items&& items, MakeRoom&& make_room, Put&& put);
 
   /// First place of a bin; that of bin + 1 is its end.
   [[nodiscard]] std::size_t begin(std::size_t bin) const { return begin_[bin]; }
@@ -30,8 +32,8 @@ private:
 
 // Every thread counts the items of its own run; a running sum over bins, and within a bin over
 // threads, then says where each thread puts them.
-template <class Items, class Put>
-void CountingSort::sort(std::size_t bins, Items&& items, Put&& put) {
+template <class Items, class MakeRoom, class Put>
+void CountingSort::sort(std::size_t bins, Items&& items, MakeRoom&& make_room, Put&& put) {
   begin_.resize(bins + 1);
   begin_[0] = 0;
 #pragma omp parallel
@@ -51,8 +53,11 @@ void CountingSort::sort(std::size_t bins, Items&& items, Put&& put) {
       begin_[bin + 1] = before;
     }
 #pragma omp single
-    for (std::size_t bin = 0; bin < bins; ++bin)
-      begin_[bin + 1] += begin_[bin];
+    {
+      for (std::size_t bin = 0; bin < bins; ++bin)
+        begin_[bin + 1] += begin_[bin];
+      make_room(begin_[bins]);
+    }
     items(t, n,
           [&](std::size_t bin, const auto& item) { put(item, bin, begin_[bin] + mine[bin]++); });
   }

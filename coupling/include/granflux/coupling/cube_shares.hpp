@@ -55,9 +55,11 @@ private:
 
   static Window find_window(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
                             const ParticlesToPlace& particles);
-  bool place(std::size_t p, const CellCube<n>& cube, const Window& lowest);
+  using Moves = std::vector<CellOrder::Move>;
+  void set_lowest(std::size_t p, std::uint32_t cell, Moves& moves);
+  bool place(std::size_t p, const CellCube<n>& cube, const Window& lowest, Moves& moves);
   bool place_block(const LatticeLocator& lattice, const Vec3* position, std::size_t first,
-                   std::size_t count, const Window& lowest);
+                   std::size_t count, const Window& lowest, Moves& moves);
   std::optional<Placing> place_all(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
                                    const ParticlesToPlace& particles,
                                    std::span<std::uint8_t> placed);
@@ -66,9 +68,10 @@ private:
   int builds_left_ = 0;                     ///< for which window_ may be kept
   std::array<std::size_t, cells> offset_{}; ///< from the lowest cell, in the order of products()
   // By particle:
-  std::vector<std::uint32_t> lowest_; ///< window_.size() where it is not placed
+  std::vector<std::uint32_t> lowest_; ///< CellOrder::nowhere where it is not placed
   std::vector<Others> others_;
-  CellOrder by_cell_; ///< by their lowest cells
+  CellOrder by_cell_;        ///< particles by their lowest cells
+  std::vector<Moves> moves_; ///< since the last build, [thread]
 };
 
 // The cells of a particle belong to n rows of cells along x on each of n levels: rows n apart, and
@@ -103,7 +106,7 @@ template <int n>
 template <std::size_t numbers>
 void CubeShares<n>::deposit_row(std::size_t begin, std::size_t end, const double* value,
                                 double* field) const {
-  const std::span<const std::uint32_t> particles = by_cell_.particles();
+  const std::span<const std::uint32_t> particles = by_cell_.items();
   for (std::size_t cell = begin; cell < end; ++cell) {
     const std::size_t first = by_cell_.begin(cell), last = by_cell_.end(cell);
     if (first == last)
@@ -133,11 +136,10 @@ void CubeShares<n>::sample(std::span<const T> field, std::span<T> value) const {
   constexpr std::size_t numbers = sizeof(T) / sizeof(double);
   const auto* from = reinterpret_cast<const double*>(field.data());
   auto* to = reinterpret_cast<double*>(value.data());
-  const std::size_t nowhere = window_.size();
 #pragma omp parallel for schedule(static)
   for (std::size_t p = 0; p < lowest_.size(); ++p) {
     std::array<double, numbers> sum{};
-    if (lowest_[p] != nowhere) {
+    if (lowest_[p] != CellOrder::nowhere) {
       const Shares share = products(others_[p]);
 #pragma GCC unroll 27
       for (std::size_t c = 0; c < cells; ++c) {

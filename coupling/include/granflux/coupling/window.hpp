@@ -28,6 +28,12 @@ struct Window {
            std::size_t(hi[0] - lo[0]) *
                (std::size_t(c[1] - lo[1]) + std::size_t(hi[1] - lo[1]) * std::size_t(c[2] - lo[2]));
   }
+  /// The cell of that position.
+  [[nodiscard]] cfd::Index3 cell(std::size_t index) const {
+    const auto [nx, ny, nz] = extent();
+    const int i = int(index % std::size_t(nx)), rows = int(index / std::size_t(nx));
+    return {lo[0] + i, lo[1] + rows % ny, lo[2] + rows / ny};
+  }
 };
 
 } // namespace granflux::coupling

@@ -10,6 +10,7 @@ namespace granflux::coupling {
 struct Centre {
   static constexpr std::string_view name = "centre";
   static constexpr bool smooths = false;
+  static constexpr int parts = 1;
 
   template <class Emit>
   void operator()(const LatticeLocator&, const ParticlePlace& particle, Emit&& emit) const {

@@ -21,6 +21,7 @@ struct Divided {
   static constexpr std::string_view name = "divided";
   static constexpr bool smooths = false;
   static constexpr int points = 29;
+  static constexpr int parts = points;
 
   template <class Emit>
   double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {

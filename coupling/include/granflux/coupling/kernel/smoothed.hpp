@@ -12,6 +12,7 @@ namespace granflux::coupling {
 struct Smoothed : SplineKernel<2> {
   static constexpr std::string_view name = "smoothed";
   static constexpr bool smooths = true;
+  static constexpr int parts = 1; ///< on grids fitted to bodies
 
   using SplineKernel<2>::operator();
   template <class Emit>
