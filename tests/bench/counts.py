@@ -55,6 +55,7 @@ WALLS = "".join(f'[[boundary]]\nname = "{side}"\nside = "{side}"\ntype = "wall"\
 ENERGY = "[energy]\nconductivity = 0.026\ninitial_temperature = 300\nexpansion = 3e-3\n"
 
 MOVE, FREEZE = "fix move all nve/sphere\n", "fix hold all freeze\n"
+NO_WALLS = "".join(f"unfix {wall}\n" for wall in ("xl", "xh", "yl", "yh", "zl"))
 EFFECTS_OF_HEAT = ("conduction", "friction", "damping", "gas_gap", "radiation")
 EFFECTS_OF_GAS = ("drag", "pressure_gradient", "two_way")
 CREATION = r"(?m)^(region +filled|lattice|create_atoms|set  |displace_atoms).*\n"
@@ -93,6 +94,10 @@ def scenes():
         "warm bed: convection buoyancy":
             (MOVE + heat("none") + gas(cold + " convection buoyancy", "warm.toml"), "warm bed: convection"),
         "all frozen": (FREEZE, "plain particles"),
+        "all frozen, no walls": (FREEZE + NO_WALLS, "all frozen"),
+        "all frozen, gas": (gas("") + FREEZE, "all frozen"),
+        "all frozen, gas, no walls": (gas("") + FREEZE + NO_WALLS, "all frozen, gas"),
+        "all frozen, heat: conduction": (heat("conduction", "") + FREEZE, "all frozen"),
     }
 
 

@@ -40,6 +40,7 @@ using LIGGGHTS::ContactModels::SurfacesIntersectData;
 /// FixContactHistoryMesh::keepflag_ is protected: a class derived from it may name it.
 struct MeshHistoryAccess : LAMMPS_NS::FixContactHistoryMesh {
   static auto kept() { return &MeshHistoryAccess::keepflag_; }
+  static auto intersects() { return &MeshHistoryAccess::intersectflag_; }
 };
 
 /// The laws of which it is known that the contacts of different particles do not meet in them.
@@ -169,7 +170,11 @@ void FixWallGran::decide() {
 /// Whether a contact has no direction. What is frozen bears any force.
 bool FixWallGran::is_centred(int particle, double gap, const double* to_wall) const {
   return gap == -radius_[particle] && to_wall[0] == 0 && to_wall[1] == 0 && to_wall[2] == 0 &&
-         !(atom->mask[particle] & frozen_group_);
+         !is_frozen(particle);
+}
+
+bool FixWallGran::is_frozen(int particle) const {
+  return atom->mask[particle] & frozen_group_;
 }
 
 /// In a setup it is LIGGGHTS' own loop that meets primitives.
@@ -209,6 +214,7 @@ bool FixWallGran::kernel_suits() const {
 
 void FixWallGran::pre_neighbor() {
   LAMMPS_NS::FixWallGran::pre_neighbor();
+  standing_current_ = false;
   for (Mesh& mesh : meshes_)
     mesh.pairs.current = false;
 }
@@ -260,8 +266,6 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
     return false;
   }
   by_kernel_ = kernel_suits_;
-  if (!by_kernel_ && !all_of_one_type())
-    return false;
   computeflag_ = shearupdate_ = 1; // a step, not its setup
   addflag_ = 0;                    // not asked for by a compute
   x_ = atom->x;
@@ -280,12 +284,21 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
                 .groups = atom->mask,
                 .force = rows(atom->f),
                 .torque = rows(atom->torque)};
+  if (!by_kernel_ && !all_of_one_type())
+    return false;
   makes_heat_ = heat_ && !heat_->heat_of_contacts().rests();
   if (meshwall_ == 1) {
     for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
       begin_mesh(mesh);
-  } else if (makes_heat_) {
+    return true;
+  }
+  if (makes_heat_)
     primitive_heat_ = heat_of_wall(nullptr);
+  primitive_stands_ = frozen_group_ && !shear_;
+  if (!standing_current_) {
+    int* first = nullptr;
+    standing_.forget(primitive_stands_ ? std::size_t(primitiveWall_->getNeighbors(first)) : 0);
+    standing_current_ = true;
   }
   return true;
 }
@@ -337,14 +350,33 @@ void FixWallGran::touch_primitive(Range block) {
   const std::span<const int> near(first, std::size_t(count)); // ascending
   // Those near a wall lie apart in memory. All that the other parts of a step read is in the cache.
   constexpr std::ptrdiff_t ahead = 16;
+  const int frozen = primitive_stands_ ? frozen_group_ : 0;
   const double* const histories = dnum() > 0 ? fix_history_primitive_->array_atom[0] : nullptr;
   for (auto p = std::lower_bound(near.begin(), near.end(), block.begin);
        p != near.end() && *p < block.end; ++p) {
     if (histories && near.end() - p > ahead)
       __builtin_prefetch(histories + std::ptrdiff_t(dnum()) * p[ahead], 1);
-    if (atom->mask[*p] & groupbit)
+    if (!(atom->mask[*p] & groupbit))
+      continue;
+    if (frozen && (atom->mask[*p] & frozen))
+      add_standing(standing_, std::size_t(p - near.begin()), *p, [&] {
+        Batch alone(*this, atom_type_wall_, primitive_heat_);
+        touch_primitive(*p, wall_velocity, alone);
+      });
+    else
       touch_primitive(*p, wall_velocity, batch);
   }
+}
+
+/// The contacts of a frozen particle with a wall at rest.
+template <class Evaluate>
+bool FixWallGran::add_standing(StandingContacts& standing, std::size_t row, int particle,
+                               Evaluate&& evaluate) {
+  const bool known = standing.add(row, particles_, particle, evaluate);
+  if (known && store_force_)
+    for (int d = 0; d < 3; ++d)
+      fix_wallforce_->array_atom[particle][d] += standing.force(row)[d];
+  return known;
 }
 
 WallTouch FixWallGran::primitive_touch(int particle, double gap, const double* to_wall,
@@ -409,7 +441,8 @@ void FixWallGran::begin_mesh(int number) {
     mesh.heat = heat_of_wall(&triangles);
   if (mesh.history)
     mesh.history->markAllContacts();
-  if (!mesh.pairs.current)
+  const bool lists_are_new = !mesh.pairs.current;
+  if (lists_are_new)
     mesh.pairs.turn_round(triangles.sizeLocal() + triangles.sizeGhost(), atom->nlocal,
                           [lists = fix.meshNeighlist()](int triangle) -> const std::vector<int>& {
                             return lists->get_contact_list(triangle);
@@ -418,6 +451,10 @@ void FixWallGran::begin_mesh(int number) {
   const std::string_view mesh_style = fix.style;
   const bool sums = mesh_style != "mesh/surface" && mesh_style != "mesh/surface/planar";
   mesh.forces.assign(sums ? mesh.pairs.triangle.size() : 0, {});
+  mesh.stands = frozen_group_ && shearupdate_ && !sums && !mesh.velocity && !triangles.isMoving();
+  const std::size_t rows = mesh.stands ? mesh.pairs.particle.size() : 0;
+  if (lists_are_new || mesh.standing.rows() != rows)
+    mesh.standing.forget(rows);
 }
 
 void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
@@ -425,18 +462,40 @@ void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
   const WallPairs& pairs = mesh.pairs;
   const auto first = std::lower_bound(pairs.particle.begin(), pairs.particle.end(), block.begin);
   for (auto row = std::size_t(first - pairs.particle.begin());
-       row < pairs.particle.size() && pairs.particle[row] < block.end; ++row)
-    for (auto pair = std::size_t(pairs.begin[row]); pair < std::size_t(pairs.begin[row + 1]);
-         ++pair)
-      touch_mesh(mesh, pairs.particle[row], pairs.triangle[pair],
-                 mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])],
-                 batch);
+       row < pairs.particle.size() && pairs.particle[row] < block.end; ++row) {
+    const int particle = pairs.particle[row];
+    if (!mesh.stands || !is_frozen(particle))
+      touch_row(mesh, row, batch);
+    else if (add_standing(mesh.standing, row, particle, [&] {
+               Batch alone(*this, mesh.wall_type, mesh.heat);
+               touch_row(mesh, row, alone);
+             }))
+      keep_history(mesh, particle);
+  }
   if (!mesh.history)
     return;
   if (makes_heat_ && by_kernel_ && dnum() > 0)
     for (auto p = first; p != pairs.particle.end() && *p < block.end; ++p)
       leave_mesh(mesh, *p);
   mesh.history->cleanUpContacts(block.begin, block.end);
+}
+
+void FixWallGran::touch_row(Mesh& mesh, std::size_t row, Batch& batch) {
+  const WallPairs& pairs = mesh.pairs;
+  for (auto pair = std::size_t(pairs.begin[row]); pair < std::size_t(pairs.begin[row + 1]); ++pair)
+    touch_mesh(mesh, pairs.particle[row], pairs.triangle[pair],
+               mesh.forces.empty() ? nullptr : &mesh.forces[std::size_t(pairs.place[pair])], batch);
+}
+
+/// The contacts that a particle had in the last step go on.
+void FixWallGran::keep_history(const Mesh& mesh, int particle) {
+  LAMMPS_NS::FixContactHistoryMesh* const known = mesh.history;
+  if (!known)
+    return;
+  bool* const kept = (known->*MeshHistoryAccess::kept())[particle];
+  bool* const intersects = (known->*MeshHistoryAccess::intersects())[particle];
+  for (int slot = 0; slot < known->nneighs(particle); ++slot)
+    kept[slot] = intersects[slot] = known->get_partner_idTri(particle, slot) >= 0;
 }
 
 /// What contacts of a particle that are about to be forgotten leave behind.

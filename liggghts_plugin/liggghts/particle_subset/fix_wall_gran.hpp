@@ -18,6 +18,7 @@
 #include "heat_port.hpp"
 #include "own_work.hpp"
 #include "particles.hpp"
+#include "standing_contacts.hpp"
 #include "wall_kernel.hpp"
 #include "wall_pairs.hpp"
 
@@ -63,6 +64,8 @@ private:
     int number = 0, wall_type = 1;
     HeatOfWall heat;
     WallPairs pairs;
+    bool stands = false;       // in this step: it rests, and only the sums of forces are asked for
+    StandingContacts standing; // of rows of pairs
     std::vector<ForceOnMesh> forces; // of each pair, where a module of the mesh sums them
   };
 
@@ -83,8 +86,13 @@ private:
   void begin_mesh(int number);
   void sum_on_mesh(Mesh& mesh);
   void touch_mesh(Mesh& mesh, Range block);
+  void touch_row(Mesh& mesh, std::size_t row, Batch& batch);
   void touch_mesh(const Mesh& mesh, int particle, int triangle, ForceOnMesh* on_mesh, Batch& batch);
   void leave_mesh(const Mesh& mesh, int particle);
+  void keep_history(const Mesh& mesh, int particle);
+  template <class Evaluate>
+  bool add_standing(StandingContacts& standing, std::size_t row, int particle, Evaluate&& evaluate);
+  [[nodiscard]] bool is_frozen(int particle) const;
   struct MeshPlace {
     double gap;
     double to_wall[3], weight[3]; // of the corners
@@ -104,6 +112,9 @@ private:
   HeatPort* heat_ = nullptr;               // null: none
   bool makes_heat_ = false;                // in this step
   HeatOfWall primitive_heat_;              // of this step
+  bool primitive_stands_ = false;          // it rests, and particles are frozen
+  StandingContacts standing_;              // of those near the primitive
+  bool standing_current_ = false;          // for its list
   Particles particles_;
   std::vector<Mesh> meshes_;
 };
