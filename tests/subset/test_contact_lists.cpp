@@ -101,6 +101,34 @@ TEST(ContactLists, HoldEveryPairOnceForEachOwner) {
     }
 }
 
+TEST(ContactLists, UnseenParticlesAreInNoPairOfOtherThreads) {
+  for (const int threads : {1, 2, 5}) {
+    Spheres s = heap(12, 1.9e-3);
+    Contacts contacts(all_laws, two_types(), 2, threads);
+    contacts.build(s, skin);
+    std::set<int> seen_by_others;
+    for (int thread = 0; thread < threads; ++thread) {
+      const ThreadContacts& mine = contacts.lists().of(thread);
+      for (const ContactRows* rows : {&mine.lower, &mine.upper})
+        for (const int p : rows->partner)
+          if (!mine.own.holds(p))
+            seen_by_others.insert(p);
+    }
+    EXPECT_EQ(seen_by_others.empty(), threads == 1);
+    for (int thread = 0; thread < threads; ++thread) {
+      const auto [own, unseen] =
+          std::pair(contacts.lists().of(thread).own, contacts.lists().of(thread).unseen);
+      EXPECT_TRUE(unseen.begin >= own.begin && unseen.end <= own.end);
+      const auto first = seen_by_others.lower_bound(unseen.begin);
+      EXPECT_TRUE(first == seen_by_others.end() || *first >= unseen.end) << thread;
+      EXPECT_GT(unseen.size(), threads == 2 ? own.size() / 2 : 0) << threads;
+      if (threads == 1) {
+        EXPECT_EQ(unseen.size(), own.size());
+      }
+    }
+  }
+}
+
 TEST(ContactLists, ForcesAreTheSameBitsOnAnyNumberOfThreads) {
   const Spheres one = after_steps(1, 60, 7);
   for (const int threads : {2, 3, 4, 7}) {

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Walls of triangles, at rest and moving, with and without stress: as in the stock program."""
 
+import re
 import unittest
 
-from host import thermo_rows
+from host import GRANFLUX, LIGGGHTS, thermo_rows
 from beside_stock import SPHERES, STIFFNESS, STIFFNESS_WALL, BesideStock, run_and_dump
 
 MOTION = """
@@ -113,6 +114,21 @@ class MeshWalls(BesideStock):
                 self.assertGreater(scale, 0)
                 for a, b in zip(expected, rows):
                     self.assertLessEqual(abs(a[column] - b[column]), 1e-10 * scale)
+
+    def test_wear_of_all_steps(self):
+        """Also of those whose particles nobody else looks at."""
+        wear = ("fix finnie all property/global k_finnie peratomtypepair 2 1 1 1 1\n"
+                "dump worn all mesh/gran/VTK 99 worn_*.vtk wear\n")
+        script = self.script(box="mesh/surface/stress", roof_="mesh/surface/stress", after=wear)
+        script = re.sub(r"(\.stl type \d)", r"\1 wear finnie", script)
+        worn = []
+        for program, options in ((LIGGGHTS, []), (GRANFLUX, ["-threads", "2"])):
+            self.run_script(script, program=program, options=options)
+            numbers = re.split(r"wear.*double", self.read("worn_99.vtk"))[1]
+            worn.append([float(word) for word in numbers.split()])
+        self.assertGreater(sum(value > 0 for value in worn[0]), 10)
+        for expected, found in zip(*worn, strict=True):
+            self.assertLessEqual(abs(found - expected), 1e-9 * max(worn[0]))
 
     def test_force_stored(self):
         self.check_touching(self.script(more="store_force yes"), mixes=[(1, 2)])

@@ -88,6 +88,7 @@ void ContactLists::build(const Particles& particles, double skin, int threads, i
     mine.own = subset_.of(thread);
     build_rows(particles, skin, excluded, kept, at_rest, mine);
     find_reach(mine);
+    find_unseen(particles.owned, mine);
   }
 }
 
@@ -106,6 +107,21 @@ void ContactLists::find_reach(ThreadContacts& contacts) {
         reach = std::max(reach, partner + 1);
     contacts.reach.push_back(reach);
   });
+}
+
+/// Threads below have those with lower rows in pairs, threads above those with partners there.
+void ContactLists::find_unseen(int owned, ThreadContacts& contacts) {
+  const Range own = contacts.own;
+  int end = own.end;
+  if (own.end < owned) { // else all partners above are ghosts
+    const std::vector<int>& partner = contacts.upper.partner;
+    const auto first = std::find_if(partner.begin(), partner.end(),
+                                    [&](int p) { return p >= own.end && p < owned; });
+    if (first != partner.end())
+      end = contacts.upper.particle[std::size_t(first - partner.begin())];
+  }
+  const int begin = contacts.reach_of_lower();
+  contacts.unseen = {begin, std::max(begin, end)};
 }
 
 /// The particles near to i that are above it or below its thread's range, in the order of the

@@ -50,6 +50,7 @@ struct ThreadContacts {
   /// End of the own particles that forces are added to by the lower rows, and by them and the upper
   /// rows of the first 1, 2 ... blocks.
   std::vector<int> reach;
+  Range unseen; ///< own particles, of which no pair of other threads is
   /// Pairs at the very same place, not both of the frozen group: their contact has no direction.
   std::vector<std::pair<int, int>> coincident;
   /// Of the last part_far() or build(), each pair in one of them; until the next store().
@@ -115,6 +116,7 @@ private:
   static void find_coincident(const Particles& particles, Range own, int row,
                               ThreadContacts& contacts);
   static void find_reach(ThreadContacts& contacts);
+  static void find_unseen(int owned, ThreadContacts& contacts);
   static void put_resting_last(const Particles& particles, Range own, int at_rest,
                                ContactRows& rows);
 

@@ -58,16 +58,38 @@ void FixNveSphere::initial_integrate(int vflag) {
   owed_ = false;
   if (count() == 0)
     return;
-  const HalfKick half = half_kick();
-  const Spheres all = spheres();
   double fastest = 0;
-  for_each_subset(count(), [&](Range range) {
-    const double squared = kick_and_move(half, halves, dtv, all, range);
+  for (const Ahead& ahead : ahead_)
+    fastest = std::max(fastest, ahead.fastest);
+  for_each_subset(count(), [&](Range own) {
+    double squared = 0;
+    int begin = own.begin;
+    for (const Ahead& ahead : ahead_) {
+      squared = std::max(squared, move(halves, {begin, std::min(ahead.moved.begin, own.end)}));
+      begin = std::max(begin, ahead.moved.end);
+    }
+    squared = std::max(squared, move(halves, {begin, own.end}));
 #pragma omp critical(granflux_fastest_particle)
     fastest = std::max(fastest, squared);
   });
+  ahead_.clear();
   if (auto* own = dynamic_cast<Neighbor*>(neighbor))
     own->moved_at_most(dtv * std::sqrt(fastest));
+}
+
+double FixNveSphere::move(int halves, Range particles) const {
+  return particles.size() > 0 ? kick_and_move(half_kick(), halves, dtv, spheres(), particles) : 0;
+}
+
+void FixNveSphere::move_ahead(int thread, Range particles) {
+  Ahead& ahead = ahead_[std::size_t(thread)];
+  particles.end = std::min(particles.end, count());
+  if (particles.size() <= 0)
+    return;
+  ahead.fastest = std::max(ahead.fastest, move(2, particles));
+  if (ahead.moved.size() == 0)
+    ahead.moved.begin = particles.begin;
+  ahead.moved.end = particles.end;
 }
 
 void FixNveSphere::final_integrate() {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <liggghts/fix_nve_sphere.h>
 
 #include "kick.hpp"
@@ -24,13 +26,27 @@ public:
   /// pass over the particles less. Nobody may look at velocities before.
   void owe_final_integrate() { owed_ = true; }
 
+  /// Before the forces of a step whose final_integrate() will be owed: some of the particles may
+  /// move on to the next step by move_ahead() as soon as their forces are complete.
+  void may_move_ahead(int threads) { ahead_.assign(std::size_t(threads), {}); }
+  /// What is owed and the next initial_integrate() for particles of one thread, which follow those
+  /// that it gave before.
+  void move_ahead(int thread, Range particles);
+
   /// What forces do to velocities in half a step, and whose.
   [[nodiscard]] HalfKick half_kick() const;
   [[nodiscard]] Spheres spheres() const;
 
 private:
   [[nodiscard]] int count() const;
+  double move(int halves, Range particles) const;
+
   bool owed_ = false;
+  struct alignas(64) Ahead {
+    Range moved;
+    double fastest = 0; // of them, squared speed
+  };
+  std::vector<Ahead> ahead_; // of each thread, since the last initial_integrate()
 };
 
 } // namespace granflux::particle_subset

@@ -177,6 +177,13 @@ bool FixWallGran::is_frozen(int particle) const {
   return atom->mask[particle] & frozen_group_;
 }
 
+/// The first that is found, with its place: it may move on before it is told of.
+void FixWallGran::note_centred(int particle) {
+  int none = -1;
+  if (centred_.compare_exchange_strong(none, particle))
+    centred_at_ = rows(atom->x)[particle];
+}
+
 /// In a setup it is LIGGGHTS' own loop that meets primitives.
 void FixWallGran::refuse_centred_on_primitive() {
   radius_ = atom->radius;
@@ -184,7 +191,7 @@ void FixWallGran::refuse_centred_on_primitive() {
     double to_wall[3] = {1, 1, 1};
     if ((atom->mask[i] & groupbit) &&
         is_centred(i, primitiveWall_->resolveContact(atom->x[i], radius_[i], to_wall), to_wall))
-      centred_ = i;
+      note_centred(i);
   }
   refuse_centred(nullptr);
 }
@@ -194,7 +201,7 @@ void FixWallGran::refuse_centred_on_primitive() {
 void FixWallGran::refuse_centred(const Mesh* mesh) {
   if (centred_ < 0)
     return;
-  const Vec3& x = rows(atom->x)[centred_];
+  const Vec3& x = centred_at_;
   error->one(FLERR, fmt::format(
                         "particle {} at ({:.10g}, {:.10g}, {:.10g}) m has its centre exactly on {} "
                         "of fix {} wall/gran: their contact has no direction; move or delete it",
@@ -413,7 +420,7 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
     return;
   }
   if (is_centred(particle, gap, to_wall)) {
-    centred_ = particle;
+    note_centred(particle);
     return;
   }
   const WallTouch touch = primitive_touch(particle, gap, to_wall, wall_velocity, history);
@@ -559,6 +566,11 @@ void FixWallGran::sum_on_mesh(Mesh& mesh) {
                                                             on.triangle, on.wall_velocity);
 }
 
+/// Modules of a mesh ask where a force acts and how fast the particle is.
+bool FixWallGran::looks_back() const {
+  return std::ranges::any_of(meshes_, [](const Mesh& mesh) { return !mesh.forces.empty(); });
+}
+
 void FixWallGran::end_own_work() {
   if (meshwall_ != 1)
     refuse_centred(nullptr);
@@ -587,7 +599,7 @@ void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, Force
   if (place.gap > 0)
     return;
   if (is_centred(particle, place.gap, place.to_wall)) {
-    centred_ = particle;
+    note_centred(particle);
     return;
   }
   double* history = nullptr;

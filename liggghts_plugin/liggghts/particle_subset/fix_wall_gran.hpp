@@ -39,6 +39,7 @@ public:
   bool begin_own_work(int eflag, int vflag) override;
   void own_work(int thread, Range block) override;
   void end_own_work() override;
+  [[nodiscard]] bool looks_back() const override;
 
   /// From here on, until the next init(), contacts with this wall make heat too. Returns what
   /// stands against that with this law, or an empty text.
@@ -75,6 +76,7 @@ private:
   [[nodiscard]] bool kernel_suits() const;
   void decide();
   [[nodiscard]] bool is_centred(int particle, double gap, const double* to_wall) const;
+  void note_centred(int particle);
   void refuse_centred_on_primitive();
   void refuse_centred(const Mesh* mesh);
   [[nodiscard]] bool all_of_one_type() const;
@@ -109,12 +111,13 @@ private:
   bool by_kernel_ = false;                 // in this step
   int frozen_group_ = 0;                   // whose forces move nothing
   std::atomic<int> centred_ = -1;          // a particle that has its centre on the wall
-  HeatPort* heat_ = nullptr;               // null: none
-  bool makes_heat_ = false;                // in this step
-  HeatOfWall primitive_heat_;              // of this step
-  bool primitive_stands_ = false;          // it rests, and particles are frozen
-  StandingContacts standing_;              // of those near the primitive
-  bool standing_current_ = false;          // for its list
+  Vec3 centred_at_;
+  HeatPort* heat_ = nullptr;      // null: none
+  bool makes_heat_ = false;       // in this step
+  HeatOfWall primitive_heat_;     // of this step
+  bool primitive_stands_ = false; // it rests, and particles are frozen
+  StandingContacts standing_;     // of those near the primitive
+  bool standing_current_ = false; // for its list
   Particles particles_;
   std::vector<Mesh> meshes_;
 };

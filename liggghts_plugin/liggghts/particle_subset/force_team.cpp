@@ -3,6 +3,8 @@
 
 #include "force_team.hpp"
 
+#include <algorithm>
+
 #include <omp.h>
 
 #include "work_times.hpp"
@@ -20,6 +22,10 @@ void ForceTeam::work_through(int thread, Range own, auto&& after) {
       after(part);
     }
   });
+}
+
+bool ForceTeam::looks_back() const {
+  return std::ranges::any_of(parts_, [](const Part& part) { return part.work->looks_back(); });
 }
 
 void ForceTeam::work(int owned, double& waiting) {

@@ -14,6 +14,8 @@ class ForceTeam {
 public:
   /// `seconds`: what the time of the first thread is added to.
   void add(OwnWork& part, double& seconds) { parts_.push_back({&part, &seconds}); }
+  /// Whether one of the parts looks at the particles' motion at its end.
+  [[nodiscard]] bool looks_back() const;
   /// Does all that was added, for the `owned` particles of the rank; adds to `waiting` the time
   /// that the first thread waits for the others.
   void work(int owned, double& waiting);

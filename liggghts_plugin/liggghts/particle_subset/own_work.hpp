@@ -22,6 +22,8 @@ public:
   virtual void own_work(int thread, Range block) = 0;
   /// What one thread has to do afterwards.
   virtual void end_own_work() {}
+  /// Whether that looks at the particles' motion, which must not have gone on until then.
+  [[nodiscard]] virtual bool looks_back() const { return false; }
 
 protected:
   ~OwnWork() = default;

@@ -112,6 +112,10 @@ std::vector<FixNveSphere*> fixes_that_may_owe(const LAMMPS_NS::Modify& modify) {
   return found;
 }
 
+bool asked_to_stop() {
+  return LAMMPS_NS::SignalHandler::request_quit && !LAMMPS_NS::SignalHandler::request_write_restart;
+}
+
 void clear(LAMMPS_NS::Atom* atom, Range range) {
   const auto bytes = 3 * sizeof(double) * std::size_t(range.size());
   if (bytes == 0)
@@ -172,6 +176,7 @@ void Verlet::run(int steps) {
   if (auto* own = dynamic_cast<Neighbor*>(neighbor))
     own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
   may_owe_ = fixes_that_may_owe(*modify);
+  may_move_ahead_ = only_own_fixes_at(*modify, PRE_FINAL_INTEGRATE);
   rare_looks_ = rare_looks(*modify);
   fixes_before_forces_look_at_none_ = look_at_no_forces(*modify);
   load_ = {};
@@ -209,7 +214,6 @@ void Verlet::run_steps(int steps) {
       if (modify->n_pre_initial_integrate)
         modify->pre_initial_integrate();
       modify->initial_integrate(vflag);
-      owed_ = false;
       if (modify->n_post_integrate)
         modify->post_integrate();
     }
@@ -224,6 +228,8 @@ void Verlet::run_steps(int steps) {
     ++load_.steps;
     load_.particles += atom->nlocal;
     load_.ghosts += atom->nghost;
+    const bool seen = i + 1 == steps || now == output->next || looked_at(now) || asked_to_stop();
+    owed_ = !seen && !may_owe_.empty();
     compute_forces();
     {
       const double gas_before = times.gas;
@@ -231,7 +237,7 @@ void Verlet::run_steps(int steps) {
         const Lap lap(times.integration);
         if (modify->n_pre_final_integrate)
           modify->pre_final_integrate();
-        final_integrate(i + 1 == steps || now == output->next || looked_at(now));
+        final_integrate();
       }
       times.integration -= times.gas - gas_before;
     }
@@ -245,13 +251,8 @@ void Verlet::run_steps(int steps) {
       output->write(now);
       timer->stamp(TIME_OUTPUT);
     }
-    if (LAMMPS_NS::SignalHandler::request_quit &&
-        !LAMMPS_NS::SignalHandler::request_write_restart) {
-      if (owed_)
-        for (FixNveSphere* fix : may_owe_)
-          fix->final_integrate();
+    if (asked_to_stop() && !owed_) // else at the end of the next step
       return;
-    }
   }
 }
 
@@ -298,29 +299,46 @@ void Verlet::exchange_and_build_lists(bigint now) {
 }
 
 bool Verlet::ClearForces::begin_own_work(int /*eflag*/, int /*vflag*/) {
+  LAMMPS_NS::Atom* const atom = verlet.atom;
   clear(atom, {.begin = atom->nlocal, .end = atom->nlocal + atom->nghost});
   cleared_.resize(std::size_t(omp_get_max_threads()));
-  contacts = nullptr;
   return true;
 }
 
 void Verlet::ClearForces::start_own_work(int thread, Range own) {
+  const PairGran* const contacts = verlet.contacts_in_team_;
   const int end = contacts ? contacts->contacts_of(thread).reach_of_lower() : own.end;
-  clear(atom, {own.begin, end});
+  clear(verlet.atom, {own.begin, end});
   cleared_[std::size_t(thread)].end = end;
 }
 
 void Verlet::ClearForces::own_work(int thread, Range block) {
+  const PairGran* const contacts = verlet.contacts_in_team_;
   if (!contacts)
     return;
   int& cleared = cleared_[std::size_t(thread)].end;
   const int end = contacts->contacts_of(thread).reach_of_block(block);
-  clear(atom, {cleared, end});
+  clear(verlet.atom, {cleared, end});
   cleared = end;
+}
+
+bool Verlet::MoveAhead::begin_own_work(int /*eflag*/, int /*vflag*/) {
+  for (FixNveSphere* fix : verlet.may_owe_)
+    fix->may_move_ahead(omp_get_max_threads());
+  return true;
+}
+
+void Verlet::MoveAhead::own_work(int thread, Range block) {
+  const Range unseen = verlet.contacts_in_team_->contacts_of(thread).unseen;
+  const Range moved{std::max(block.begin, unseen.begin), std::min(block.end, unseen.end)};
+  if (moved.size() > 0)
+    for (FixNveSphere* fix : verlet.may_owe_)
+      fix->move_ahead(thread, moved);
 }
 
 void Verlet::finish_team() {
   team_.work(atom->nlocal, work_times().waiting);
+  contacts_in_team_ = nullptr;
 }
 
 bool Verlet::add_part(OwnWork* part, double& seconds, auto&& otherwise) {
@@ -341,7 +359,6 @@ bool Verlet::add_part(OwnWork* part, double& seconds, auto&& otherwise) {
 
 void Verlet::compute_forces() {
   WorkTimes& times = work_times();
-  clear_.atom = atom;
   add_part(&clear_, times.other_fixes, [] {});
   if (!fixes_before_forces_look_at_none_)
     finish_team();
@@ -353,7 +370,7 @@ void Verlet::compute_forces() {
   if (pair_compute_flag) {
     auto* own = dynamic_cast<PairGran*>(force->pair);
     if (add_part(own, times.contacts, [&] { force->pair->compute(eflag, vflag); }))
-      clear_.contacts = own;
+      contacts_in_team_ = own;
   }
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fmask[i] & POST_FORCE) {
@@ -370,13 +387,14 @@ void Verlet::compute_forces() {
           fix.end_time_recording();
       });
     }
+  if (owed_ && may_move_ahead_ && contacts_in_team_ && !team_.looks_back())
+    add_part(&move_ahead_, times.integration, [] {});
   finish_team();
   timer->array[TIME_PAIR] += times.contacts - contacts_before;
   timer->stamp();
 }
 
-void Verlet::final_integrate(bool velocities_seen) {
-  owed_ = !velocities_seen && !may_owe_.empty();
+void Verlet::final_integrate() {
   if (!owed_) {
     modify->final_integrate();
     return;

@@ -18,9 +18,10 @@ class PairGran;
 class RareLook;
 
 /// LIGGGHTS' time step: the calls to fixes, pair style, communication and output in the order and
-/// under the conditions of run_style verlet. Forces are cleared by the thread that owns them, and
-/// the two half steps of velocity between two positions are taken in one pass over the particles
-/// where nobody looks in between. Reports at the end of a run where the time went.
+/// under the conditions of run_style verlet. Forces are cleared by the thread that owns them. Where
+/// nobody looks in between, the two half steps of velocity between two positions are taken in one
+/// go, with the forces while these are in the cache. Reports at the end of a run where the time
+/// went.
 class Verlet : public LAMMPS_NS::Verlet {
 public:
   using LAMMPS_NS::Verlet::Verlet;
@@ -38,22 +39,24 @@ private:
   [[nodiscard]] bool lists_have_aged();
   [[nodiscard]] bool looked_at(LAMMPS_NS::bigint step) const;
   void report();
-  void final_integrate(bool velocities_seen);
+  void final_integrate();
 
   bool set_up_ = false;                // setup() was called since the last run
   std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
-  bool owed_ = false;
+  bool may_move_ahead_ = false;        // in this run: those that owe, before the step is over
+  bool owed_ = false;                  // final_integrate() of this step
   std::vector<const RareLook*> rare_looks_;
   bool fixes_before_forces_look_at_none_ = false;
   SpatialOrder order_;
   WorkLoad load_; // sums over the steps of a run
   ForceTeam team_;
+  const PairGran* contacts_in_team_ = nullptr; // null: they are not, or are done
 
   /// Takes the forces of the last step off, where contacts are in the team no earlier than they
   /// are added to: they are then written once while they are in the cache.
   struct ClearForces final : OwnWork {
-    LAMMPS_NS::Atom* atom = nullptr;
-    const PairGran* contacts = nullptr; // in the same go of the team
+    explicit ClearForces(const Verlet& all) : verlet(all) {}
+    const Verlet& verlet;
     bool begin_own_work(int eflag, int vflag) override;
     void start_own_work(int thread, Range own) override;
     void own_work(int thread, Range block) override;
@@ -63,7 +66,16 @@ private:
       int end;
     };
     std::vector<Cleared> cleared_; // of each thread
-  } clear_;
+  } clear_{*this};
+
+  /// Moves particles on to the next step as soon as the forces on them are complete, unless another
+  /// thread may still look at them: these move in initial_integrate().
+  struct MoveAhead final : OwnWork {
+    explicit MoveAhead(const Verlet& all) : verlet(all) {}
+    const Verlet& verlet;
+    bool begin_own_work(int eflag, int vflag) override;
+    void own_work(int thread, Range block) override;
+  } move_ahead_{*this};
 };
 
 /// Puts Verlet in the place of LIGGGHTS' own where that is about to run spheres.
