@@ -5,6 +5,7 @@
 import math
 import re
 
+from few_spheres import script
 from host import CASE, couple, thermo_rows
 
 DIAMETER, DENSITY = 1e-3, 1000.0
@@ -12,49 +13,21 @@ MASS = DENSITY * math.pi / 6 * DIAMETER**3
 SPEED = 0.2
 STEPS = 400  # of a contact, about
 
-SCENE = """
-units           si
-atom_style      {atom_style}
-atom_modify     map array
-boundary        f f f
-newton          off
-{communicate}
-region          box block 0 10e-3 0 6e-3 0 40e-3 units box
-create_box      1 box
-create_atoms    1 single 4e-3 3e-3 20e-3 units box
-create_atoms    1 single {other!r} 3e-3 20e-3 units box
-{size}
+MORE = f"""
 group           left id 1
-velocity        left set {speed} 0 0 units box
-{contacts}
-neighbor        3e-4 bin
-neigh_modify    delay 0
-fix             move all nve/sphere
-timestep        {step!r}
+velocity        left set {SPEED} 0 0 units box
 variable        gap equal x[2]-x[1]
 thermo_style    custom step v_gap
 thermo_modify   norm no format float %.17g
-thermo          1
-{gas}
-run             {steps}
-"""
+{couple(100)}"""
 
 # Next to no gas: it must not slow the spheres down.
 THIN = CASE.replace("density = 1.2", "density = 1e-9").replace("viscosity = 1.8e-5", "viscosity = 1e-12")
 
 
 def scene(contacts, step, lammps=False):
-    return SCENE.format(
-        atom_style="sphere" if lammps else "granular",
-        communicate="comm_modify vel yes" if lammps else "communicate single vel yes",
-        size="set type 1 diameter 1e-3\nset type 1 density 1000" if lammps else "set group all diameter 1e-3 density 1000",
-        other=4e-3 + DIAMETER * 1.001,
-        speed=SPEED,
-        contacts=contacts,
-        step=step,
-        gas=couple(100),
-        steps=int(STEPS * 1.3 + 1e-3 * DIAMETER / SPEED / step),
-    )
+    return script(lammps, (4e-3, 4e-3 + DIAMETER * 1.001), DIAMETER, DENSITY, contacts, skin=3e-4, step=step,
+                  steps=int(STEPS * 1.3 + 1e-3 * DIAMETER / SPEED / step), every=1, more=MORE)
 
 
 def duration(output, step):

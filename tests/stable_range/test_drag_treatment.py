@@ -11,6 +11,7 @@ import os
 import re
 import unittest
 
+from few_spheres import script
 from host import CASE, HostTest
 
 LAMMPS = os.environ["PROGRAM"] == "granflux_lammps"
@@ -19,42 +20,18 @@ PROGRAM = os.environ["GRANFLUX_LAMMPS" if LAMMPS else "GRANFLUX"]
 DIAMETER, DENSITY, VISCOSITY, SPEED = 1e-4, 1000.0, 1.8e-5, 1e-4
 TAU = DENSITY * DIAMETER**2 / (18 * VISCOSITY)  # s
 
-SCRIPT = """
-units           si
-atom_style      {style}
-atom_modify     map array
-boundary        f f f
-newton          off
-{communicate}
-region          box block 0 10e-3 0 6e-3 0 40e-3 units box
-create_box      1 box
-create_atoms    1 single 5e-3 3e-3 20e-3 units box
-set             group all diameter {diameter} density 1000
-{contacts}
-neighbor        1e-3 bin
-fix             move all nve/sphere
+MORE = """
 fix             gas all granflux/couple case case.toml couple_every {every} effects {effects}
 variable        speed equal vz[1]
 thermo_style    custom step v_speed
-thermo_modify   lost error norm no format float %.15g
-thermo          {steps}
-timestep        {dt}
-run             {steps}
-"""
-LIGGGHTS_WORDS = {
-    "style": "granular",
-    "communicate": "communicate     single vel yes",
-    "contacts": "".join(
+thermo_modify   lost error norm no format float %.15g"""
+# So soft that nothing need be resolved.
+CONTACTS = (
+    "pair_style gran/hooke/history 1e-12 3e-13 0 0 0 0\npair_coeff * *" if LAMMPS else "".join(
         f"fix {name} all property/global {what} peratomtypepair 1 {value}\n"
         for name, what, value in (("kn", "kn", 1e-12), ("kt", "kt", 3e-13), ("gn", "gamman_abs", 0), ("gt", "gammat_abs", 0),
                                   ("mu", "coefficientFriction", 0)))
-    + "pair_style gran model hooke/stiffness tangential history absolute_damping on\npair_coeff * *\n",
-}
-LAMMPS_WORDS = {
-    "style": "sphere",
-    "communicate": "comm_modify     vel yes",
-    "contacts": "pair_style gran/hooke/history 1e-12 3e-13 0 0 0 0\npair_coeff * *\n",
-}
+    + "pair_style gran model hooke/stiffness tangential history absolute_damping on\npair_coeff * *")
 
 
 def slip_by_steps(c, steps):
@@ -66,9 +43,9 @@ class DragTreatment(HostTest):
         slip_sides = CASE.replace('"wall"', '"slip"').replace("0, 0, 0.5", f"0, 0, {SPEED}")
         self.write("case.toml", slip_sides + f"[initial]\nvelocity = [0, 0, {SPEED}]\n"
                    + f'[coupling]\ndrag = "stokes"\n{coupling}\n')
-        words = LAMMPS_WORDS if LAMMPS else LIGGGHTS_WORDS
-        self.output = self.run_script(SCRIPT.format(dt=dt, steps=steps, every=every, diameter=diameter,
-                                                    effects=effects, **words), program=PROGRAM)
+        text = script(LAMMPS, (5e-3,), diameter, DENSITY, CONTACTS, skin=1e-3, step=dt, steps=steps, every=steps,
+                      more=MORE.format(every=every, effects=effects))
+        self.output = self.run_script(text, program=PROGRAM)
         found = re.findall(rf"^ +{steps} +([-+.\de]+)", self.output, re.MULTILINE)
         return 1 - float(found[-1]) / SPEED  # slip over that of the start
 
