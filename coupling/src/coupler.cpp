@@ -21,6 +21,7 @@
 #include <granflux/coupling/ledger.hpp>
 #include <granflux/coupling/locate.hpp>
 #include <granflux/coupling/nusselt/laws.hpp>
+#include <granflux/coupling/particle_block.hpp>
 #include <granflux/coupling/smoothing.hpp>
 #include <granflux/coupling/throw_together.hpp>
 #include <granflux/coupling/weights.hpp>
@@ -76,6 +77,62 @@ template <class Sums, class Add> Sums sum_particles(std::size_t n, Add&& add) {
   for (const Sums& part : parts)
     total += part;
   return total;
+}
+
+/// The same of add(first, count, sums) for blocks of particles.
+template <class Sums, class Add> Sums sum_blocks(std::size_t n, Add&& add) {
+  const std::size_t blocks = (n + particles_a_block - 1) / particles_a_block;
+  return sum_particles<Sums>(blocks, [&](std::size_t b, Sums& sums) {
+    const std::size_t first = b * particles_a_block;
+    add(first, std::min(particles_a_block, n - first), sums);
+  });
+}
+
+/// A vector of each particle of a block.
+struct VectorLanes {
+  Lanes x, y, z;
+  void set(std::size_t i, const Vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+  [[nodiscard]] Vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Lanes& operator[](int d) { return d == 0 ? x : d == 1 ? y : z; }
+  const Lanes& operator[](int d) const { return d == 0 ? x : d == 1 ? y : z; }
+  VectorLanes& operator*=(const Lanes& factor) & {
+    for (Lanes* component : {&x, &y, &z})
+      *component = lanes([&](std::size_t i) { return (*component)[i] * factor[i]; });
+    return *this;
+  }
+  [[nodiscard]] CompensatedVec3 sum() const {
+    return {coupling::sum(x), coupling::sum(y), coupling::sum(z)};
+  }
+  [[nodiscard]] CompensatedSum sum_of_norms() const {
+    return coupling::sum(
+        lanes([&](std::size_t i) { return std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]); }));
+  }
+};
+
+/// A block of particles as the laws see it. Places without a particle, and particles that are not
+/// placed, are in gas alone, without slip.
+struct SeenBlock {
+  Lanes there;    ///< 1 or 0
+  Lanes diameter; ///< of particles, not of parcels [m]; 0 where there is none
+  Lanes reynolds, void_fraction;
+};
+
+/// How many of those that are there a law is not meant for.
+template <class Inside> double count_outside(const SeenBlock& seen, Inside&& inside) {
+  const Lanes outside = lanes([&](std::size_t i) { return inside(i) ? 0. : seen.there[i]; });
+  double count = 0;
+  for (std::size_t i = 0; i < particles_a_block; ++i)
+    count += outside[i];
+  return count;
+}
+
+/// effective_coefficient() of a block, lambda = b T/m.
+Lanes effective_coefficients(const Lanes& b, const Lanes& lambda) {
+  Lanes effective = lanes([&](std::size_t i) { return b[i] * (1 + small_lag(lambda[i])); });
+  if (!(largest(lambda) < small_lag_limit))
+    for (std::size_t i = 0; i < particles_a_block; ++i)
+      effective[i] = b[i] * drag_response(lambda[i]).mean;
+  return effective;
 }
 
 double sphere_volume(double radius) {
@@ -158,20 +215,29 @@ struct Coupler::Impl {
   void check_void_fraction(ExchangeSums& sums) const;
   std::string too_little_gas(std::size_t b, double least) const;
   void sample_old_gas();
+  template <class Gas>
+  SeenBlock see(const ParticleView& view, std::size_t first, std::size_t count, Gas&& gas) const;
+  SeenBlock see_flow(const ParticleView& view, std::size_t first, std::size_t count) const;
+  SeenBlock see_old_gas(const ParticleView& view, std::size_t first, std::size_t count) const;
   template <class Law>
-  double drag_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
-                 const Vec3& gas_velocity, ExchangeSums& mine) const;
+  Lanes drag_of(const Law& law, const SeenBlock& seen, ExchangeSums& mine) const;
   template <class Law>
   ExchangeSums charge(const Law& law, const ParticleView& view, double interval);
   void set_momentum_exchange(double interval, ExchangeSums& sums);
   void take_drag_at_start(double interval, ExchangeSums& sums);
   void sample_new_gas();
-  void show_new_gas(std::size_t p, double radius, FluidState& state) const;
+  struct NewGas {
+    VectorLanes velocity, pressure_force;
+  };
+  [[nodiscard]] const double* new_gas_at(std::size_t p) const;
+  [[nodiscard]] NewGas see_new_gas(const ParticleView& view, std::size_t first,
+                                   std::size_t count) const;
   ExchangeSums book(const ParticleView& view, double interval);
   void check_heat(const ParticleView& view) const;
   template <class Law>
-  double conductance_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
-                        const Vec3& gas_velocity, double interval, ExchangeSums& mine) const;
+  Lanes conductance_of(const Law& law, const SeenBlock& seen, ExchangeSums& mine) const;
+  Lanes heat_response(const Lanes& conductance, const ParticleView& view, std::size_t first,
+                      std::size_t count, double interval) const;
   template <class Law>
   ExchangeSums charge_heat(const Law& law, const ParticleView& view, double interval);
   void set_heat_exchange();
@@ -395,53 +461,109 @@ void Coupler::Impl::sample_old_gas() {
   sample(old_gas);
 }
 
-/// Of a particle in gas of void fraction `eps` [kg/s], and what is to be known of it.
-template <class Law>
-double Coupler::Impl::drag_of(const Law& law, const ParticleView& view, std::size_t p, double eps,
-                              const Vec3& gas_velocity, ExchangeSums& mine) const {
+/// gas(p): the void fraction at a particle, and the gas velocity [m/s].
+template <class Gas>
+SeenBlock Coupler::Impl::see(const ParticleView& view, std::size_t first, std::size_t count,
+                             Gas&& gas_at) const {
+  SeenBlock seen;
+  Lanes slip_squared;
+  for (std::size_t i = 0; i < particles_a_block; ++i) {
+    const std::size_t p = first + i;
+    const bool there = i < count && weights.placed(p);
+    seen.there[i] = there;
+    seen.void_fraction[i] = 1;
+    seen.diameter[i] = slip_squared[i] = 0;
+    if (!there)
+      continue;
+    const auto& [eps, velocity] = gas_at(p);
+    const Vec3 slip = velocity - view.velocity[p];
+    seen.void_fraction[i] = eps;
+    seen.diameter[i] = diameter_over_radius * view.radius[p];
+    slip_squared[i] = dot(slip, slip);
+  }
   const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
-  const double d = diameter_over_radius * view.radius[p];
-  const double slip = norm(gas_velocity - view.velocity[p]);
-  const DragInput in{.reynolds = rho * eps * slip * d / mu, .void_fraction = eps};
-  double b = particles_a_parcel * 3 * std::numbers::pi * mu * d * eps * law(in);
-  if (options.model == MomentumModel::b)
-    b /= eps;
-  mine.law_out_of_range += law.valid.contains(in) ? 0 : 1;
-  mine.slip_reynolds_max = std::max(mine.slip_reynolds_max, in.reynolds);
-  return b;
+  seen.reynolds = lanes([&](std::size_t i) {
+    return rho * seen.void_fraction[i] * std::sqrt(slip_squared[i]) * seen.diameter[i] / mu;
+  });
+  return seen;
+}
+
+SeenBlock Coupler::Impl::see_old_gas(const ParticleView& view, std::size_t first,
+                                     std::size_t count) const {
+  return see(view, first, count, [&](std::size_t p) {
+    const auto& [eps, ux, uy, uz] = old_gas[p].of;
+    return std::pair(eps, Vec3{ux, uy, uz});
+  });
+}
+
+/// The gas of this step, as if there were no particles.
+SeenBlock Coupler::Impl::see_flow(const ParticleView& view, std::size_t first,
+                                  std::size_t count) const {
+  return see(view, first, count, [&](std::size_t p) {
+    const double* const gas_at = new_gas_at(p);
+    return std::pair(1., Vec3{gas_at[0], gas_at[1], gas_at[2]});
+  });
+}
+
+/// Drag coefficients [kg/s], and what is to be known of them.
+template <class Law>
+Lanes Coupler::Impl::drag_of(const Law& law, const SeenBlock& seen, ExchangeSums& mine) const {
+  const double stokes = particles_a_parcel * 3 * std::numbers::pi * gas.fluid().viscosity;
+  const bool all_pressure_on_gas = options.model == MomentumModel::b;
+  const auto in = [&](std::size_t i) {
+    return DragInput{.reynolds = seen.reynolds[i], .void_fraction = seen.void_fraction[i]};
+  };
+  mine.law_out_of_range +=
+      count_outside(seen, [&](std::size_t i) { return law.valid.contains(in(i)); });
+  mine.slip_reynolds_max = std::max(mine.slip_reynolds_max, largest(seen.reynolds));
+  return lanes([&](std::size_t i) {
+    const double per_eps = stokes * seen.diameter[i] * law(in(i));
+    return all_pressure_on_gas ? per_eps : per_eps * seen.void_fraction[i];
+  });
 }
 
 /// Drag coefficient of every particle, and what the gas is to be charged for it.
 template <class Law>
 ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, double interval) {
   drag_terms.resize(view.size());
-  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    FluidState& state = view.fluid[p];
-    if (!weights.placed(p)) {
-      state = {};
-      drag_terms[p] = {};
-      return;
-    }
-    const auto& [eps, ux, uy, uz] = old_gas[p].of;
-    state.void_fraction = eps;
-    const Vec3 gas_velocity{ux, uy, uz};
-    double b_eff = 0;
+  const bool at_once = options.drag_treatment != DragTreatment::implicit_in_both;
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    Lanes b{}, effective{};
     if constexpr (!std::is_same_v<Law, NoDrag>) {
-      const double b = drag_of(law, view, p, eps, gas_velocity, mine);
-      const bool fixed = !view.fixed.empty() && view.fixed[p];
-      const bool at_once = fixed || options.drag_treatment != DragTreatment::implicit_in_both;
-      b_eff = at_once ? b : effective_coefficient(b, view.mass[p], interval);
-      state.drag_coefficient = b;
-      if (!fixed)
-        mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
+      b = drag_of(law, see_old_gas(view, first, count), mine);
+      Lanes lambda{};
+      for (std::size_t i = 0; i < count; ++i)
+        if (view.fixed.empty() || !view.fixed[first + i])
+          lambda[i] = b[i] * interval / view.mass[first + i];
+      mine.stiffness_max = std::max(mine.stiffness_max, largest(lambda));
+      effective = at_once ? b : effective_coefficients(b, lambda);
     }
-    const Vec3 hand_over = state.impulse - state.booked;
-    const Vec3 still = explicit_drag() ? gas_velocity : Vec3{};
-    const Vec3 source = b_eff * (view.velocity[p] - still) - hand_over / interval;
-    drag_terms[p] = {{b_eff, source.x, source.y, source.z}};
-    mine.handed_over += hand_over;
-    mine.exchanged += norm(hand_over);
-  });
+    VectorLanes handed_over;
+    for (std::size_t i = 0; i < particles_a_block; ++i) {
+      const std::size_t p = first + i;
+      if (i >= count || !weights.placed(p)) {
+        handed_over.set(i, {});
+        if (i < count) {
+          view.fluid[p] = {};
+          drag_terms[p] = {};
+        }
+        continue;
+      }
+      FluidState& state = view.fluid[p];
+      const auto& [eps, ux, uy, uz] = old_gas[p].of;
+      state.void_fraction = eps;
+      if constexpr (!std::is_same_v<Law, NoDrag>)
+        state.drag_coefficient = b[i];
+      const Vec3 hand_over = state.impulse - state.booked;
+      const Vec3 still = explicit_drag() ? Vec3{ux, uy, uz} : Vec3{};
+      const Vec3 source = effective[i] * (view.velocity[p] - still) - hand_over / interval;
+      drag_terms[p] = {{effective[i], source.x, source.y, source.z}};
+      handed_over.set(i, hand_over);
+    }
+    mine.handed_over += handed_over.sum();
+    mine.exchanged += handed_over.sum_of_norms();
+  };
+  return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 void Coupler::Impl::set_momentum_exchange(double interval, ExchangeSums& sums) {
@@ -486,60 +608,107 @@ void Coupler::Impl::sample_new_gas() {
     sample(new_flow);
 }
 
-/// Gas velocity and pressure force of a particle after the gas step.
-void Coupler::Impl::show_new_gas(std::size_t p, double radius, FluidState& state) const {
-  if (!options.effects.pressure_gradient) {
-    const auto& [ux, uy, uz] = new_flow[p].of;
-    state.gas_velocity = {ux, uy, uz};
-    return;
+/// Gas velocity [m/s] at a particle after the gas step: three numbers, which the pressure gradient
+/// follows where there is one.
+const double* Coupler::Impl::new_gas_at(std::size_t p) const {
+  return options.effects.pressure_gradient ? new_gas[p].of.data() : new_flow[p].of.data();
+}
+
+/// What a block of particles meets after the gas step.
+Coupler::Impl::NewGas Coupler::Impl::see_new_gas(const ParticleView& view, std::size_t first,
+                                                 std::size_t count) const {
+  NewGas seen;
+  Lanes bearing; // of the pressure gradient [m3]
+  const bool bears = options.effects.pressure_gradient && options.model == MomentumModel::a;
+  for (std::size_t i = 0; i < particles_a_block; ++i) {
+    const std::size_t p = first + i;
+    seen.velocity.set(i, {});
+    seen.pressure_force.set(i, {});
+    bearing[i] = 0;
+    if (i >= count || !weights.placed(p))
+      continue;
+    const double* const gas_at = new_gas_at(p);
+    seen.velocity.set(i, {gas_at[0], gas_at[1], gas_at[2]});
+    if (bears) {
+      seen.pressure_force.set(i, {gas_at[3], gas_at[4], gas_at[5]});
+      bearing[i] = -sphere_volume(view.radius[p]);
+    }
   }
-  const double bearing = options.model == MomentumModel::a ? sphere_volume(radius) : 0;
-  const auto& [ux, uy, uz, gx, gy, gz] = new_gas[p].of;
-  state.gas_velocity = {ux, uy, uz};
-  state.pressure_force = -bearing * Vec3{gx, gy, gz};
+  seen.pressure_force *= bearing;
+  return seen;
 }
 
 /// What the gas step took from the gas for each particle.
 ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
-  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    if (!weights.placed(p))
-      return;
-    FluidState& state = view.fluid[p];
-    show_new_gas(p, view.radius[p], state);
-    if (explicit_drag())
-      state.gas_velocity = {old_gas[p].of[1], old_gas[p].of[2], old_gas[p].of[3]};
-    const Vec3 drag_force = drag_terms[p].of[0] * (state.gas_velocity - view.velocity[p]);
-    state.booked = interval * (drag_force + state.pressure_force);
-    state.impulse = {};
-    mine.drag += drag_force;
-    mine.pressure_force += state.pressure_force;
-    mine.booked += state.booked;
-    mine.exchanged += norm(state.booked);
-  });
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    NewGas seen = see_new_gas(view, first, count);
+    VectorLanes drag_force;
+    Lanes effective;
+    for (std::size_t i = 0; i < particles_a_block; ++i) {
+      const std::size_t p = first + i;
+      effective[i] = 0;
+      drag_force.set(i, {});
+      if (i >= count || !weights.placed(p))
+        continue;
+      effective[i] = drag_terms[p].of[0];
+      drag_force.set(i, view.velocity[p]);
+      if (explicit_drag())
+        seen.velocity.set(i, {old_gas[p].of[1], old_gas[p].of[2], old_gas[p].of[3]});
+    }
+    VectorLanes booked;
+    for (int d = 0; d < 3; ++d) {
+      Lanes& force = drag_force[d]; // so far the particles' velocity
+      force = lanes([&](std::size_t i) { return effective[i] * (seen.velocity[d][i] - force[i]); });
+      booked[d] =
+          lanes([&](std::size_t i) { return interval * (force[i] + seen.pressure_force[d][i]); });
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!weights.placed(first + i))
+        continue;
+      FluidState& state = view.fluid[first + i];
+      state.gas_velocity = seen.velocity.at(i);
+      state.pressure_force = seen.pressure_force.at(i);
+      state.impulse = {};
+      state.booked = booked.at(i);
+    }
+    mine.drag += drag_force.sum();
+    mine.pressure_force += seen.pressure_force.sum();
+    mine.booked += booked.sum();
+    mine.exchanged += booked.sum_of_norms();
+  };
+  return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 /// Of gas that flows as if there were no particles: void fraction 1, nothing booked.
 template <class Law>
 ExchangeSums Coupler::Impl::act_on_particles(const Law& law, const ParticleView& view,
                                              double interval) {
-  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    FluidState& state = view.fluid[p];
-    if (!weights.placed(p)) {
-      state = {};
-      return;
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    const NewGas seen = see_new_gas(view, first, count);
+    Lanes b;
+    if constexpr (!std::is_same_v<Law, NoDrag>)
+      b = drag_of(law, see_flow(view, first, count), mine);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t p = first + i;
+      FluidState& state = view.fluid[p];
+      if (!weights.placed(p)) {
+        state = {};
+        continue;
+      }
+      state.void_fraction = 1;
+      state.gas_velocity = seen.velocity.at(i);
+      state.pressure_force = seen.pressure_force.at(i);
+      if constexpr (!std::is_same_v<Law, NoDrag>) {
+        state.drag_coefficient = b[i];
+        mine.drag += b[i] * (state.gas_velocity - view.velocity[p]);
+        if (view.fixed.empty() || !view.fixed[p])
+          mine.stiffness_max = std::max(mine.stiffness_max, b[i] * interval / view.mass[p]);
+      }
+      mine.pressure_force += state.pressure_force;
+      mine.particle_volume += sphere_volume(view.radius[p]);
     }
-    state.void_fraction = 1;
-    show_new_gas(p, view.radius[p], state);
-    if constexpr (!std::is_same_v<Law, NoDrag>) {
-      const double b = drag_of(law, view, p, 1, state.gas_velocity, mine);
-      state.drag_coefficient = b;
-      mine.drag += b * (state.gas_velocity - view.velocity[p]);
-      if (view.fixed.empty() || !view.fixed[p])
-        mine.stiffness_max = std::max(mine.stiffness_max, b * interval / view.mass[p]);
-    }
-    mine.pressure_force += state.pressure_force;
-    mine.particle_volume += sphere_volume(view.radius[p]);
-  });
+  };
+  return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 /// Throws on all ranks alike where the gas has a temperature and particles have none.
@@ -550,67 +719,83 @@ void Coupler::Impl::check_heat(const ParticleView& view) const {
       without ? "[energy]: the particles have no temperature that the gas could change" : "");
 }
 
-/// Between the gas and a particle [W/K].
+/// Between the gas and particles [W/K].
 template <class Law>
-double Coupler::Impl::conductance_of(const Law& law, const ParticleView& view, std::size_t p,
-                                     double eps, const Vec3& gas_velocity, double interval,
-                                     ExchangeSums& mine) const {
-  const double d = diameter_over_radius * view.radius[p];
+Lanes Coupler::Impl::conductance_of(const Law& law, const SeenBlock& seen,
+                                    ExchangeSums& mine) const {
   const double given = options.heat_transfer_coefficient;
-  double conductance = particles_a_parcel * std::numbers::pi * d * d * given;
-  if (!(given > 0)) {
-    const double rho = gas.fluid().density, mu = gas.fluid().viscosity;
-    const double k = gas_case.energy->conductivity;
-    const double slip = norm(gas_velocity - view.velocity[p]);
-    const NusseltInput in{.reynolds = rho * eps * slip * d / mu,
-                          .prandtl = mu * gas_case.energy->heat_capacity / k,
-                          .void_fraction = eps};
-    conductance = particles_a_parcel * std::numbers::pi * d * k * law(in);
-    mine.nusselt_out_of_range += law.valid.contains(in) ? 0 : 1;
-  }
-  if (view.fixed_temperature.empty() || !view.fixed_temperature[p])
-    mine.heat_stiffness_max =
-        std::max(mine.heat_stiffness_max, conductance * interval / view.heat_capacity[p]);
-  return conductance;
+  const double pi = particles_a_parcel * std::numbers::pi;
+  if (given > 0)
+    return lanes([&](std::size_t i) { return pi * seen.diameter[i] * seen.diameter[i] * given; });
+  const double k = gas_case.energy->conductivity;
+  const double prandtl = gas.fluid().viscosity * gas_case.energy->heat_capacity / k;
+  const auto in = [&](std::size_t i) {
+    return NusseltInput{
+        .reynolds = seen.reynolds[i], .prandtl = prandtl, .void_fraction = seen.void_fraction[i]};
+  };
+  mine.nusselt_out_of_range +=
+      count_outside(seen, [&](std::size_t i) { return law.valid.contains(in(i)); });
+  return lanes([&](std::size_t i) { return pi * k * seen.diameter[i] * law(in(i)); });
+}
+
+/// h A T/(m c) of a block of particles; 0 where the temperature is fixed.
+Lanes Coupler::Impl::heat_response(const Lanes& conductance, const ParticleView& view,
+                                   std::size_t first, std::size_t count, double interval) const {
+  Lanes lambda{};
+  for (std::size_t i = 0; i < count; ++i)
+    if (view.fixed_temperature.empty() || !view.fixed_temperature[first + i])
+      lambda[i] = conductance[i] * interval / view.heat_capacity[first + i];
+  return lambda;
 }
 
 /// Conductance between gas and every particle, and what the gas is to be charged for it.
 template <class Law>
 ExchangeSums Coupler::Impl::charge_heat(const Law& law, const ParticleView& view, double interval) {
   heat_terms.resize(view.size());
-  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    HeatState& state = view.heat[p];
-    if (!weights.placed(p)) {
-      state = {};
-      heat_terms[p] = {};
-      return;
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    const Lanes conductance = conductance_of(law, see_old_gas(view, first, count), mine);
+    const Lanes lambda = heat_response(conductance, view, first, count, interval);
+    mine.heat_stiffness_max = std::max(mine.heat_stiffness_max, largest(lambda));
+    const Lanes effective = effective_coefficients(conductance, lambda);
+    Lanes handed_over{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t p = first + i;
+      HeatState& state = view.heat[p];
+      if (!weights.placed(p)) {
+        state = {};
+        heat_terms[p] = {};
+        continue;
+      }
+      state.conductance = conductance[i];
+      handed_over[i] = state.received - state.booked;
+      heat_terms[p] = {
+          {effective[i], effective[i] * view.temperature[p] - handed_over[i] / interval}};
     }
-    const auto& [eps, ux, uy, uz] = old_gas[p].of;
-    state.conductance = conductance_of(law, view, p, eps, {ux, uy, uz}, interval, mine);
-    const bool fixed = !view.fixed_temperature.empty() && view.fixed_temperature[p];
-    const double effective =
-        fixed ? state.conductance
-              : effective_coefficient(state.conductance, view.heat_capacity[p], interval);
-    const double hand_over = state.received - state.booked;
-    heat_terms[p] = {{effective, effective * view.temperature[p] - hand_over / interval}};
-    mine.heat_handed_over += hand_over;
-    mine.heat_exchanged += std::abs(hand_over);
-  });
+    mine.heat_handed_over += sum(handed_over);
+    mine.heat_exchanged += sum(lanes([&](std::size_t i) { return std::abs(handed_over[i]); }));
+  };
+  return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 /// Of gas that keeps its heat: nothing is booked.
 template <class Law>
 ExchangeSums Coupler::Impl::heat_particles(const Law& law, const ParticleView& view,
                                            double interval) {
-  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    HeatState& state = view.heat[p];
-    if (!weights.placed(p)) {
-      state = {};
-      return;
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    const Lanes conductance = conductance_of(law, see_flow(view, first, count), mine);
+    mine.heat_stiffness_max = std::max(
+        mine.heat_stiffness_max, largest(heat_response(conductance, view, first, count, interval)));
+    for (std::size_t p = first; p < first + count; ++p) {
+      HeatState& state = view.heat[p];
+      if (!weights.placed(p)) {
+        state = {};
+        continue;
+      }
+      state.conductance = conductance[p - first];
+      state.gas_temperature = new_heat[p].of[0];
     }
-    state.conductance = conductance_of(law, view, p, 1, view.fluid[p].gas_velocity, interval, mine);
-    state.gas_temperature = new_heat[p].of[0];
-  });
+  };
+  return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 void Coupler::Impl::set_heat_exchange() {
@@ -629,16 +814,22 @@ void Coupler::Impl::sample_new_heat() {
 
 /// What the gas step took from the gas for each particle.
 ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval) {
-  return sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    if (!weights.placed(p))
-      return;
-    HeatState& state = view.heat[p];
-    state.gas_temperature = new_heat[p].of[0];
-    state.booked = interval * heat_terms[p].of[0] * (state.gas_temperature - view.temperature[p]);
-    state.received = 0;
-    mine.heat_booked += state.booked;
-    mine.heat_exchanged += std::abs(state.booked);
-  });
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    Lanes booked{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t p = first + i;
+      if (!weights.placed(p))
+        continue;
+      HeatState& state = view.heat[p];
+      state.gas_temperature = new_heat[p].of[0];
+      state.booked = interval * heat_terms[p].of[0] * (state.gas_temperature - view.temperature[p]);
+      state.received = 0;
+      booked[i] = state.booked;
+    }
+    mine.heat_booked += sum(booked);
+    mine.heat_exchanged += sum(lanes([&](std::size_t i) { return std::abs(booked[i]); }));
+  };
+  return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 std::variant<ResponseIs<Response::exact>, ResponseIs<Response::exact_unless_fixed>,

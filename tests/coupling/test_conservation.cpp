@@ -10,6 +10,7 @@
 #include <random>
 
 #include <granflux/cfd/error.hpp>
+#include <granflux/coupling/drag/schiller_naumann.hpp>
 
 #include "fake_host.hpp"
 #include "saved_state.hpp"
@@ -170,6 +171,25 @@ TEST(Exchange, TakesBackWhatTheIntegratorDidNotApply) {
     EXPECT_LT(norm(0.5 * half[p].impulse - host.fluid[p].impulse), 1e-14 * norm(half[p].impulse));
   coupler.exchange(host.view(), 1e-4);
   expect_closed_books(coupler.report());
+}
+
+TEST(Exchange, ParticlesBeyondTheLawAreCounted) {
+  coupling::CouplingOptions options;
+  options.drag = "schiller_naumann";
+  coupling::Coupler coupler(upflow(true), options, MPI_COMM_WORLD);
+  FakeHost host({0, 0, 0}, box, {true, false, false}, MPI_COMM_WORLD);
+  fill(host);
+  coupler.initialise(host.view(), 0);
+  coupler.exchange(host.view(), 1e-4);
+  const auto valid = coupling::SchillerNaumann::valid;
+  double beyond = 0;
+  for (const coupling::FluidState& state : host.fluid)
+    beyond += !valid.void_fraction.contains(state.void_fraction);
+  MPI_Allreduce(MPI_IN_PLACE, &beyond, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(coupler.report().law_out_of_range, long(beyond));
+  EXPECT_GT(beyond, 20);
+  EXPECT_LT(beyond, 220); // of 240
+  EXPECT_LT(coupler.report().slip_reynolds_max, valid.reynolds.high);
 }
 
 TEST(Exchange, FixedParticlesAreChargedInFull) {

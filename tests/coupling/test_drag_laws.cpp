@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <granflux/coupling/drag/laws.hpp>
+#include <granflux/coupling/particle_block.hpp>
 
 using namespace granflux::coupling;
 
@@ -75,6 +76,25 @@ TEST(DragLaws, FiniteAndPositive) {
         const double f = law({re, eps});
         EXPECT_TRUE(std::isfinite(f) && f > 0) << law.name << " Re " << re << " eps " << eps;
       }
+  });
+}
+
+// What a particle gets does not depend on its place in a block, nor on the others.
+TEST(DragLaws, OnVectorRegistersAsAlone) {
+  DragLaws::for_each([](auto law) {
+    std::vector<DragInput> in;
+    for (const double eps : void_fractions(law.valid))
+      for (const double re : reynolds_numbers(law.valid))
+        in.push_back({re, eps});
+    const auto from = [&](std::size_t first) {
+      return lanes([&](std::size_t i) { return law(in[(first + i) % in.size()]); });
+    };
+    for (std::size_t first = 0; first < in.size(); ++first) {
+      const Lanes found = from(first), shifted = from(first + 1);
+      for (std::size_t i = 0; i + 1 < particles_a_block; ++i)
+        ASSERT_EQ(found[i + 1], shifted[i]) << law.name;
+      ASSERT_NEAR(found[0], law(in[first]), 1e-14 * found[0]) << law.name;
+    }
   });
 }
 

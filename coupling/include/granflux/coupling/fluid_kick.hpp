@@ -15,19 +15,24 @@ struct DragResponse {
   double lag = 0;  ///< mean - 1, to full relative precision however small lambda [-]
 };
 
+/// `lag` by its series: for lambda below small_lag_limit only, where it is as exact as expm1 and
+/// cheaper.
+[[nodiscard]] inline double small_lag(double lambda) {
+  // (exp(x) - 1)/x - 1 = x/2! + x^2/3! + ... by Horner; products only, this is done every step.
+  const double x = -lambda;
+  return x *
+         (1. / 2 +
+          x * (1. / 6 + x * (1. / 24 + x * (1. / 120 +
+                                            x * (1. / 720 + x * (1. / 5040 + x * (1. / 40320)))))));
+}
+inline constexpr double small_lag_limit = 0.05;
+
 [[nodiscard]] inline DragResponse drag_response(double lambda) {
-  // Below the limit the series is as exact as expm1 and cheaper; above, expm1 no longer cancels.
-  if (lambda < 0.05) {
-    // (exp(x) - 1)/x - 1 = x/2! + x^2/3! + ... by Horner; products only, this is done every step.
-    const double x = -lambda;
-    const double lag =
-        x *
-        (1. / 2 +
-         x * (1. / 6 + x * (1. / 24 +
-                            x * (1. / 120 + x * (1. / 720 + x * (1. / 5040 + x * (1. / 40320)))))));
+  if (lambda < small_lag_limit) {
+    const double lag = small_lag(lambda);
     return {1 + lag, lag};
   }
-  const double mean = -std::expm1(-lambda) / lambda;
+  const double mean = -std::expm1(-lambda) / lambda; // no longer cancels
   return {mean, mean - 1};
 }
 

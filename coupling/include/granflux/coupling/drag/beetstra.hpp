@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include <granflux/coupling/drag/drag_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -25,10 +27,10 @@ struct Beetstra {
     const double re = in.reynolds, eps = in.void_fraction, phi = 1 - eps;
     const double viscous = 10 * phi / (eps * eps) + eps * eps * (1 + 1.5 * std::sqrt(phi));
     // Numerator and denominator times Re^m: finite at Re = 0.
-    const double re_m = std::pow(re, 0.5 + 2 * phi);
+    const double re_m = power(re, 0.5 + 2 * phi);
     const double inertial = 0.413 / (24 * eps * eps) * re_m *
-                            ((1 / eps + 3 * eps * phi) * re + 8.4 * std::pow(re, 1 - 0.343)) /
-                            (re_m + std::pow(10., 3 * phi));
+                            ((1 / eps + 3 * eps * phi) * re + 8.4 * power(re, 1 - 0.343)) /
+                            (re_m + exponential2(3 * std::numbers::ln10 / std::numbers::ln2 * phi));
     return viscous + inertial;
   }
 };

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <granflux/coupling/drag/drag_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -21,10 +23,11 @@ struct DiFelice {
 
   double operator()(DragInput in) const {
     const double root = 0.63 * std::sqrt(in.reynolds) + 4.8; // = sqrt(Cd Re)
-    // Below Re = 1e-30 chi is 3.7 to the last bit; this only keeps log10 finite.
-    const double s = 1.5 - std::log10(std::max(in.reynolds, 1e-30));
-    const double chi = 3.7 - 0.65 * std::exp(-0.5 * s * s);
-    return root * root / 24 * std::pow(in.void_fraction, -chi);
+    // Below Re = 1e-30 chi is 3.7 to the last bit; this only keeps the logarithm finite.
+    const double s =
+        1.5 - std::numbers::ln2 / std::numbers::ln10 * logarithm2(std::max(in.reynolds, 1e-30));
+    const double chi = 3.7 - 0.65 * exponential2(-0.5 / std::numbers::ln2 * s * s);
+    return root * root / 24 * power(in.void_fraction, -chi);
   }
 };
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <granflux/coupling/drag/drag_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -31,13 +33,14 @@ struct KochHill {
   double operator()(DragInput in) const {
     const double eps = in.void_fraction, phi = 1 - eps;
     const double f0 = phi < 0.4 ? dilute(phi) : 10 * phi / (eps * eps * eps);
-    const double f3 = 0.0673 + 0.212 * phi + 0.0232 / std::pow(eps, 5);
+    const double f3 = 0.0673 + 0.212 * phi + 0.0232 / (eps * eps * eps * eps * eps);
     return eps * (f0 + 0.5 * f3 * in.reynolds);
   }
 
 private:
   static double dilute(double phi) {
-    const double phi_ln_phi = phi * std::log(std::max(phi, 1e-300)); // 0 at phi = 0
+    const double phi_ln_phi =
+        phi * std::numbers::ln2 * logarithm2(std::max(phi, 1e-300)); // 0 at phi = 0
     return (1 + 3 * std::sqrt(phi / 2) + 135. / 64 * phi_ln_phi + 17.14 * phi) /
            (1 + phi * (0.681 + phi * (-8.48 + phi * 8.16)));
   }

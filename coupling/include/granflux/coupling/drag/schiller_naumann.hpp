@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
 #include <granflux/coupling/drag/drag_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -18,7 +17,7 @@ struct SchillerNaumann {
 
   double operator()(DragInput in) const {
     const double re = in.reynolds;
-    return re < 1000 ? 1 + 0.15 * std::pow(re, 0.687) : 0.44 / 24 * re;
+    return re < 1000 ? 1 + 0.15 * power(re, 0.687) : 0.44 / 24 * re;
   }
 };
 

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
 #include <granflux/coupling/drag/schiller_naumann.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -21,7 +20,7 @@ struct WenYu {
   static constexpr double stokes_tolerance = 0;
 
   double operator()(DragInput in) const {
-    return SchillerNaumann{}(in)*std::pow(in.void_fraction, -3.65);
+    return SchillerNaumann{}(in)*power(in.void_fraction, -3.65);
   }
 };
 

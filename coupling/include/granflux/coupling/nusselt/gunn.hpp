@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <granflux/coupling/nusselt/nusselt_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -17,8 +18,8 @@ struct Gunn {
   double operator()(NusseltInput in) const {
     const double eps = in.void_fraction;
     const double root = std::cbrt(in.prandtl);
-    return (7 - 10 * eps + 5 * eps * eps) * (1 + 0.7 * std::pow(in.reynolds, 0.2) * root) +
-           (1.33 - 2.4 * eps + 1.2 * eps * eps) * std::pow(in.reynolds, 0.7) * root;
+    return (7 - 10 * eps + 5 * eps * eps) * (1 + 0.7 * power(in.reynolds, 0.2) * root) +
+           (1.33 - 2.4 * eps + 1.2 * eps * eps) * power(in.reynolds, 0.7) * root;
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <granflux/coupling/nusselt/nusselt_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -17,12 +18,12 @@ struct LiMason {
 
   double operator()(NusseltInput in) const {
     const double re = in.reynolds, root = std::cbrt(in.prandtl);
-    const double crowding = std::pow(in.void_fraction, 3.5);
+    const double crowding = power(in.void_fraction, 3.5);
     if (re <= 200)
       return 2 + 0.6 * crowding * std::sqrt(re) * root;
     if (re <= 1500)
-      return 2 + crowding * root * (0.5 * std::sqrt(re) + 0.02 * std::pow(re, 0.8));
-    return 2 + 4.5e-5 * crowding * std::pow(re, 1.8);
+      return 2 + crowding * root * (0.5 * std::sqrt(re) + 0.02 * power(re, 0.8));
+    return 2 + 4.5e-5 * crowding * power(re, 1.8);
   }
 };
 

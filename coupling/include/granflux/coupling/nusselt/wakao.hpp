@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <granflux/coupling/nusselt/nusselt_law.hpp>
+#include <granflux/coupling/power.hpp>
 
 namespace granflux::coupling {
 
@@ -15,7 +16,7 @@ struct Wakao {
   static constexpr NusseltRange valid{.reynolds = {15, 8500}, .void_fraction = {0.35, 0.6}};
 
   double operator()(NusseltInput in) const {
-    return 2 + 1.1 * std::pow(in.reynolds, 0.6) * std::cbrt(in.prandtl);
+    return 2 + 1.1 * power(in.reynolds, 0.6) * std::cbrt(in.prandtl);
   }
 };
 
