@@ -388,23 +388,31 @@ double* FixHeat::parted_heat() {
 }
 
 /// What contacts have made since the last step of temperature, and what springs of contacts held
-/// that had ended when the lists were built: in the step of the build, or the first one after that
-/// of a run's setup.
-void FixHeat::receive_kept_heat() {
-  if (options_.every == 1 && neighbor->lastcall + 1 < update->ntimestep)
-    return;
-  const particle_subset::HeatShown shown = this->shown();
+/// that had ended when the lists were built. With a step of temperature in every time step there is
+/// some in the step of the build alone, or the first one after that of a run's setup.
+bool FixHeat::has_kept_heat() const {
+  return options_.every > 1 || neighbor->lastcall + 1 >= update->ntimestep;
+}
+
+/// The particles of `range` receive it.
+void FixHeat::receive_kept_heat(const particle_subset::HeatShown& shown,
+                                particle_subset::Range range, HeatSums& sums) {
+  const double dt = step_of_temperature();
+  double* const rate = heat_flux_->vector_atom;
   const auto receive = [&](double* kept, double HeatSums::*sum, double HeatDetails::*detail) {
-    for (int i = 0; i < atom->nlocal; ++i) {
-      const double power = kept[i] / step_of_temperature();
-      kept[i] = 0;
-      heat_flux_->vector_atom[i] += power;
-      sums_.front().*sum += power;
-      if (shown.wanted()) {
-        shown.contacts[i].made += power;
-        shown.details[i].*detail += power;
-      }
+    double total = 0;
+#pragma omp simd reduction(+ : total)
+    for (int i = range.begin; i < range.end; ++i) {
+      rate[i] += kept[i] / dt;
+      total += kept[i];
     }
+    sums.*sum += total / dt;
+    if (shown.wanted())
+      for (int i = range.begin; i < range.end; ++i) {
+        shown.contacts[i].made += kept[i] / dt;
+        shown.details[i].*detail += kept[i] / dt;
+      }
+    std::fill(kept + range.begin, kept + range.end, 0.0);
   };
   if (double* const friction = parted_heat())
     receive(friction, &HeatSums::friction, &HeatDetails::friction);
@@ -462,7 +470,6 @@ void FixHeat::step(coupling::HeatState* gas) {
   book_heat_of_walls();
   if (!steps_now())
     return;
-  receive_kept_heat();
   if (options_.near.any())
     subsets_->add_near_heat(near_law_, heat_of_contacts().arrays);
   const double between = MPI_Wtime();
@@ -478,9 +485,15 @@ void FixHeat::step(coupling::HeatState* gas) {
     check_time_step(particles);
   const double dt = step_of_temperature();
   std::vector<particle_subset::StepPowers> parts(sums_.size());
+  const bool has_kept = has_kept_heat();
+  const particle_subset::HeatShown shown = this->shown();
   particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
-    parts[std::size_t(omp_get_thread_num())] =
-        step_temperature(particles, materials_.capacity, held(), dt, range);
+    const auto thread = std::size_t(omp_get_thread_num());
+    particle_subset::for_each_block(range, [&](particle_subset::Range block) {
+      if (has_kept)
+        receive_kept_heat(shown, block, sums_[thread]);
+      parts[thread] += step_temperature(particles, materials_.capacity, held(), dt, block);
+    });
   });
   particle_subset::StepPowers stepped;
   for (const auto& part : parts)

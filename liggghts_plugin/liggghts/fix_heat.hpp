@@ -70,7 +70,9 @@ private:
   void conduct_by_shape();
   void step(coupling::HeatState* gas) override;
   void book_heat_of_walls();
-  void receive_kept_heat();
+  [[nodiscard]] bool has_kept_heat() const;
+  void receive_kept_heat(const particle_subset::HeatShown& shown, particle_subset::Range range,
+                         particle_subset::HeatSums& sums);
   [[nodiscard]] particle_subset::Resistances resistances();
   void receive_half_kick_heat();
   void check_time_step(const particle_subset::HeatedParticles& particles) const;

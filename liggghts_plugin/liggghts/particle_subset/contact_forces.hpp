@@ -13,7 +13,7 @@ namespace granflux::particle_subset {
 
 /// The contact forces of one thread: goes along its rows, takes the pairs that touch and hands them
 /// to the law in batches. Writes only what belongs to the particles of the range. Heat: a
-/// HeatBatch, or WithoutHeat where there is none.
+/// HeatBatch, KeptWork, or WithoutHeat where there is none.
 template <class Law, bool one_material, class Heat> class ContactForces {
 public:
   using Constants = typename Law::Constants;
@@ -110,7 +110,7 @@ private:
     gather(rows, count);
     evaluate(batch_, count, batch_constants_, dt_, heat_);
     if constexpr (Heat::acts)
-      heat_.add(batch_, count, own_, p_.type);
+      heat_.add(batch_, count, own_);
     scatter<side>(rows, count);
     if constexpr (Heat::template resists<Law>)
       heat_.resist(batch_, count, own_);
@@ -137,10 +137,15 @@ private:
       batch_.radius_j[k] = p_.radius[j];
       batch_.mass_i[k] = p_.mass[i];
       batch_.mass_j[k] = p_.mass[j];
-      if constexpr (!one_material)
+      if constexpr (!one_material) {
         batch_constants_.set(k, constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1]);
+        if constexpr (Heat::acts)
+          heat_.set_constants(k, p_.type[i], p_.type[j]);
+      }
       if constexpr (Law::history > 0)
         get_history(&rows.history[std::size_t(batch_.entry[k]) * Law::history], k);
+      if constexpr (Heat::acts)
+        heat_.gather(k, i, j);
     }
     if (p_.frozen_group)
       freeze(count);
@@ -191,6 +196,8 @@ private:
     p_.force[i] += batch_.force.at(k);
     if constexpr (Law::turns)
       p_.torque[i] += batch_.torque_i.at(k);
+    if constexpr (Heat::acts)
+      heat_.give_to_i(k, i);
   }
 
   void add_to_j(int k) {
@@ -198,6 +205,8 @@ private:
     p_.force[j] -= batch_.force.at(k);
     if constexpr (Law::turns)
       p_.torque[j] += batch_.torque_j.at(k);
+    if constexpr (Heat::acts)
+      heat_.give_to_j(k, j);
   }
 
   void put_memory(ContactRows& rows, int k) const {

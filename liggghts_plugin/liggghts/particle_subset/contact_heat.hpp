@@ -166,6 +166,10 @@ struct HeatOfContacts {
   [[nodiscard]] bool rests() const {
     return arrays.kept.now && !arrays.kept.friction && !arrays.kept.damping;
   }
+  /// Nothing is conducted in this time step, and nothing made that counts but the slider's work.
+  [[nodiscard]] bool keeps_sliders_work_alone() const {
+    return arrays.kept.now && arrays.kept.friction && law->options().slider_at_most();
+  }
 };
 
 /// Heat at one wall; without a temperature nothing is conducted.

@@ -24,27 +24,20 @@ struct NoRadius {
   double operator()(double, const coupling::ContactShape&) const { return 0; }
 };
 
+/// What the particles of a batch add to: of what is kept, friction first.
+double* target(const HeatArrays& arrays) {
+  const KeptHeat& kept = arrays.kept;
+  return !kept.now ? arrays.rate : kept.friction ? kept.friction : kept.damping;
+}
+
 } // namespace
 
 template <HeatMade made>
 HeatBatch<made>::HeatBatch(const HeatOfContacts& heat)
-    : law_(*heat.law), arrays_(heat.arrays), types_(law_.types()) {
+    : law_(*heat.law), arrays_(heat.arrays), conducts_(law_.options().radius && !arrays_.kept.now),
+      to_(target(arrays_)) {
   for (int k = 0; k < ContactBatch::capacity; ++k)
     set_constants(k, law_.pair(1, 1));
-}
-
-template <HeatMade made>
-void HeatBatch<made>::set_constants(int k, const ContactHeat::PairConstants& pair) {
-  per_radius_[k] = pair.conductance_per_radius;
-  inverse_modulus_[k] = pair.inverse_modulus;
-  overlap_ratio_[k] = pair.overlap_ratio;
-  share_[k] = pair.share;
-}
-
-template <HeatMade made>
-void HeatBatch<made>::set_constants(const ContactBatch& b, int count, const int* type) {
-  for (int k = 0; k < count; ++k)
-    set_constants(k, law_.pair(type[b.i[k]], type[b.j[k]]));
 }
 
 /// The columns of friction and damping become what the options count of them.
@@ -61,52 +54,40 @@ template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_grou
   }
 }
 
-/// What the pairs' columns of rates hold, to the particles. Without branches where all are own:
-/// that half of the contacts slide would be guessed wrongly half of the time.
-template <HeatMade made>
-void HeatBatch<made>::give(double* to, const ContactBatch& b, int count, bool all_own,
-                           Range own) const {
-  if (all_own) {
-    for (int k = 0; k < count; ++k) {
-      to[b.i[k]] += rate_i_[k];
-      to[b.j[k]] += rate_j_[k];
-    }
-    return;
-  }
-  for (int k = 0; k < count; ++k) {
-    if (own.holds(b.i[k]))
-      to[b.i[k]] += rate_i_[k];
-    if (own.holds(b.j[k]))
-      to[b.j[k]] += rate_j_[k];
-  }
-}
-
-template <HeatMade made>
-void HeatBatch<made>::keep(const Column& power, double* energy, const ContactBatch& batch,
-                           int count, Range own) {
+/// Of a power, what it comes to in the time step.
+template <HeatMade made> void HeatBatch<made>::share_out(const Column& power, int count) {
   for (int k = 0; k < count; ++k) {
     const double heat = arrays_.kept.dt * power[k];
-    rate_i_[k] = share_[k] * heat;
-    rate_j_[k] = heat - rate_i_[k];
+    of_i_[k] = share_[k] * heat;
+    of_j_[k] = heat - of_i_[k];
   }
-  give(energy, batch, count, all_are(own, batch, count), own);
 }
 
-template <HeatMade made>
-void HeatBatch<made>::keep(const ContactBatch& batch, int count, Range own) {
-  if (arrays_.kept.friction)
-    keep(friction_, arrays_.kept.friction, batch, count, own);
+template <HeatMade made> void HeatBatch<made>::keep(const ContactBatch& b, int count, Range own) {
   if constexpr (made == HeatMade::by_any)
-    if (arrays_.kept.damping)
-      keep(damping_, arrays_.kept.damping, batch, count, own);
+    if (double* const energy = arrays_.kept.damping) {
+      share_out(damping_, count);
+      if (energy == to_)
+        return;
+      for (int k = 0; k < count; ++k) {
+        if (own.holds(b.i[k]))
+          energy[b.i[k]] += of_i_[k];
+        if (own.holds(b.j[k]))
+          energy[b.j[k]] += of_j_[k];
+      }
+    }
+  share_out(friction_, count);
 }
 
+/// Sums over all pairs, as if all particles were own: what one conducts to another adds up to
+/// nothing then.
 template <HeatMade made>
 template <class Radius>
 [[gnu::flatten]] void HeatBatch<made>::exchange(const Radius& radius, const ContactBatch& b,
                                                 int whole_groups) {
   const double part = arrays_.part_of_step;
-#pragma GCC ivdep
+  double friction = 0, damping = 0;
+#pragma omp simd reduction(+ : friction, damping)
   for (int k = 0; k < whole_groups; ++k) {
     coupling::ContactShape shape = coupling::shape_of_pair(
         b.radius_i[k], b.radius_j[k], overlap_ratio_[k] * overlap_[k], pressing_[k]);
@@ -114,35 +95,58 @@ template <class Radius>
     conductance_[k] = per_radius_[k] * radius(inverse_modulus_[k], shape);
     conduction_[k] = conductance_[k] * warmer_[k];
     double heat = friction_[k];
-    if constexpr (made == HeatMade::by_any)
+    friction += friction_[k];
+    if constexpr (made == HeatMade::by_any) {
       heat += damping_[k];
+      damping += damping_[k];
+    }
     heat *= part;
-    rate_i_[k] = conduction_[k] + share_[k] * heat;
-    rate_j_[k] = heat - rate_i_[k];
+    of_i_[k] = conduction_[k] + share_[k] * heat;
+    of_j_[k] = heat - of_i_[k];
   }
+  sums_.friction += part * friction;
+  sums_.damping += part * damping;
+}
+
+/// What other threads' or ranks' particles get is taken off the sums: they count it.
+template <HeatMade made>
+void HeatBatch<made>::take_off_others(const ContactBatch& b, int count, Range own) {
+  const double part = arrays_.part_of_step;
+  double conduction = 0, friction = 0, damping = 0;
+#pragma omp simd reduction(+ : conduction, friction, damping)
+  for (int k = 0; k < count; ++k) {
+    const double own_i = own.holds(b.i[k]) ? 1 : 0, own_j = own.holds(b.j[k]) ? 1 : 0;
+    const double others = (1 - own_i) * share_[k] + (1 - own_j) * (1 - share_[k]);
+    conduction += (own_i - own_j) * conduction_[k];
+    friction -= others * friction_[k];
+    if constexpr (made == HeatMade::by_any)
+      damping -= others * damping_[k];
+  }
+  sums_.conduction += conduction;
+  sums_.friction += part * friction;
+  sums_.damping += part * damping;
 }
 
 template <HeatMade made>
-void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own, const int* type) {
+void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own) {
   constexpr int lanes = ContactBatch::lanes;
   const int whole_groups = (count + lanes - 1) / lanes * lanes;
   count_what_is_made(whole_groups);
-  if (types_ > 1)
-    set_constants(batch, count, type);
   if (arrays_.kept.now) {
     keep(batch, count, own);
     return;
   }
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k)
-    warmer_[k] = arrays_.temperature[batch.j[k]] - arrays_.temperature[batch.i[k]];
-  std::fill(warmer_ + count, warmer_ + whole_groups, 0.0);
+  // Lanes without a pair of their own.
+  std::fill(friction_ + count, friction_ + whole_groups, 0.0);
+  if constexpr (made == HeatMade::by_any)
+    std::fill(damping_ + count, damping_ + whole_groups, 0.0);
   if (law_.options().radius)
     std::visit([&](const auto& radius) { exchange(radius, batch, whole_groups); },
                *law_.options().radius);
   else
     exchange(NoRadius{}, batch, whole_groups);
-  hand_on(batch, count, own);
+  if (!all_are(own, batch, count))
+    take_off_others(batch, count, own);
   if (arrays_.shown.wanted())
     show(batch, count, own);
 }
@@ -178,36 +182,6 @@ void HeatBatch<made>::resist(const ContactBatch& b, int count, Range own) const 
     damper_.add(b, count, own, arrays_.resistances.damping);
   if (arrays_.resistances.rubbing)
     rubbing_.add(b, count, own, arrays_.resistances.rubbing);
-}
-
-/// To the particles, and to the sums.
-template <HeatMade made>
-void HeatBatch<made>::hand_on(const ContactBatch& b, int count, Range own) {
-  const bool all_own = all_are(own, b, count);
-  give(arrays_.rate, b, count, all_own, own);
-  const double part = arrays_.part_of_step;
-  double conduction = 0, friction = 0, damping = 0;
-  if (all_own) { // what one conducts to another adds up to nothing
-#pragma omp simd reduction(+ : friction, damping)
-    for (int k = 0; k < count; ++k) {
-      friction += friction_[k];
-      if constexpr (made == HeatMade::by_any)
-        damping += damping_[k];
-    }
-  } else {
-#pragma omp simd reduction(+ : conduction, friction, damping)
-    for (int k = 0; k < count; ++k) {
-      const double own_i = own.holds(b.i[k]) ? 1 : 0, own_j = own.holds(b.j[k]) ? 1 : 0;
-      const double share = own_i * share_[k] + own_j * (1 - share_[k]);
-      conduction += (own_i - own_j) * conduction_[k];
-      friction += share * friction_[k];
-      if constexpr (made == HeatMade::by_any)
-        damping += share * damping_[k];
-    }
-  }
-  sums_.conduction += conduction;
-  sums_.friction += part * friction;
-  sums_.damping += part * damping;
 }
 
 template <HeatMade made>

@@ -40,6 +40,12 @@ public:
   HeatBatch(const HeatBatch&) = delete;
   HeatBatch& operator=(const HeatBatch&) = delete;
 
+  /// Before the forces: of one pair. Constants where there are several types.
+  void set_constants(int k, int type_i, int type_j) { set_constants(k, law_.pair(type_i, type_j)); }
+  void gather(int k, int i, int j) {
+    if (conducts_)
+      warmer_[k] = arrays_.temperature[j] - arrays_.temperature[i];
+  }
   /// With the forces, of whole groups of lanes.
   template <class Law> void set(int k, const ContactForce& f) {
     pressing_[k] = f.pressing;
@@ -60,8 +66,11 @@ public:
     }
   }
   /// After the forces: what the first `count` pairs, of which some particles are `own`, conduct and
-  /// make; in a time step between two steps of temperature what they make is kept.
-  void add(const ContactBatch& batch, int count, Range own, const int* type);
+  /// make; in a time step between two steps of temperature what they make is kept. What particles
+  /// get of it, they get one by one afterwards.
+  void add(const ContactBatch& batch, int count, Range own);
+  void give_to_i(int k, int i) const { to_[i] += of_i_[k]; }
+  void give_to_j(int k, int j) const { to_[j] += of_j_[k]; }
   [[nodiscard]] bool all_dissipated() const { return law_.options().all_dissipated(); }
   /// Adds the shares of what is left of a contact that has ended [W].
   void add_left(int i, int j, const int* type, double power, Range own);
@@ -69,16 +78,18 @@ public:
   void resist(const ContactBatch& batch, int count, Range own) const;
 
 private:
-  void set_constants(const ContactBatch& batch, int count, const int* type);
-  void set_constants(int k, const ContactHeat::PairConstants& pair);
+  void set_constants(int k, const ContactHeat::PairConstants& pair) {
+    per_radius_[k] = pair.conductance_per_radius;
+    inverse_modulus_[k] = pair.inverse_modulus;
+    overlap_ratio_[k] = pair.overlap_ratio;
+    share_[k] = pair.share;
+  }
   void count_what_is_made(int whole_groups);
   void keep(const ContactBatch& batch, int count, Range own);
-  void keep(const ContactBatch::Column& power, double* energy, const ContactBatch& batch, int count,
-            Range own);
-  void give(double* to, const ContactBatch& batch, int count, bool all_own, Range own) const;
+  void share_out(const ContactBatch::Column& power, int count);
   template <class Radius>
   void exchange(const Radius& radius, const ContactBatch& batch, int whole_groups);
-  void hand_on(const ContactBatch& batch, int count, Range own);
+  void take_off_others(const ContactBatch& batch, int count, Range own);
   void show(const ContactBatch& batch, int count, Range own) const;
 
   using Column = ContactBatch::Column;
@@ -93,14 +104,15 @@ private:
   };
   const ContactHeat& law_;
   const HeatArrays arrays_;
-  const int types_;
-  HeatSums sums_; // of this object
+  const bool conducts_;
+  double* const to_; // what particles get: rates, or energies between steps of temperature
+  HeatSums sums_;    // of this object
+  alignas(64) Column warmer_{}; // j than i
   // Written before they are read, in every batch: to clear them would cost more than some laws.
-  alignas(64) Column warmer_; // j than i
   alignas(64) Column per_radius_, inverse_modulus_, overlap_ratio_, share_;
   alignas(64) Column pressing_, overlap_, reduced_radius_;
   alignas(64) Column friction_, slider_force_, slip_squared_, rolling_, damping_;
-  alignas(64) Column conductance_, conduction_, rate_i_, rate_j_;
+  alignas(64) Column conductance_, conduction_, of_i_, of_j_;
   Resisting damper_, rubbing_;
 };
 

@@ -9,6 +9,7 @@
 #include "choices.hpp"
 #include "contact_forces.hpp"
 #include "contact_kernel.hpp"
+#include "kept_work.hpp"
 #include "stored_at_parting.hpp"
 
 // The kernels of one normal law with all laws that may go with it. A normal law has a source file
@@ -63,6 +64,11 @@ public:
 private:
   void with_forces(const Particles& particles, ThreadContacts& contacts, double dt,
                    const HeatOfContacts* heat, auto&& work) const {
+    if constexpr (!Law::rubs)
+      if (heat && heat->keeps_sliders_work_alone()) {
+        with_heat<KeptWork>(particles, contacts, dt, *heat, work);
+        return;
+      }
     if (!heat || heat->rests())
       with_heat<WithoutHeat>(particles, contacts, dt, {}, work);
     else if (heat->law->options().slider_at_most())

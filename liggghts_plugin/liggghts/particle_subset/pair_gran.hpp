@@ -66,6 +66,7 @@ public:
 private:
   void add_heat_alone();
   void clear_heat(Range range) const;
+  void call_heat_to_cache(Range range) const;
   [[nodiscard]] const HeatOfContacts* heat() const { return heat_ ? &heat_now_ : nullptr; }
   [[nodiscard]] std::string reason_for_stock();
   void refuse_coincident() const;

@@ -31,16 +31,26 @@ public:
 
   void add(const Particles& p, std::span<WallTouch> touches, int wall_type,
            double dt) const override {
-    touch_all(p, touches, wall_type, dt, [](const WallTouch&, const typename Law::Force&) {});
+    touch_all(p, touches, wall_type, dt, [](const WallTouch&, const Force&) {});
   }
   void add_with_heat(const Particles& p, std::span<WallTouch> touches, int wall_type, double dt,
                      const HeatOfWall& heat) const override {
-    touch_all(p, touches, wall_type, dt, [&](const WallTouch& touch, const typename Law::Force& f) {
+    const auto add = [&](const WallTouch& touch, const Force& f, const Dissipation& made) {
       const int i = touch.particle;
-      heat.add(i, p.type[i], wall_type, p.radius[i], -touch.gap, f.pressing, f.heat);
-      if (Law::rubs || heat.contacts.law->options().damping)
-        heat.resist({i, f.damping, f.rubbing});
-    });
+      heat.add(i, p.type[i], wall_type, p.radius[i], -touch.gap, f.pressing, made);
+    };
+    if (heat.contacts.law->options().slider_at_most()) // the rest is then not computed
+      touch_all(p, touches, wall_type, dt, [&](const WallTouch& touch, const Force& f) {
+        add(touch, f, {.sliding = f.heat.sliding, .rolling = f.heat.rolling});
+        if constexpr (Law::rubs)
+          heat.resist({touch.particle, {}, f.rubbing});
+      });
+    else
+      touch_all(p, touches, wall_type, dt, [&](const WallTouch& touch, const Force& f) {
+        add(touch, f, f.heat);
+        if (Law::rubs || heat.contacts.law->options().damping)
+          heat.resist({touch.particle, f.damping, f.rubbing});
+      });
   }
 
   [[nodiscard]] double left_at_parting(const Particles& p, const WallTouch& last, int wall_type,
@@ -54,6 +64,8 @@ public:
   }
 
 private:
+  using Force = typename Law::Force;
+
   /// All in one: what a law makes that is not seen, as heat, is then not computed.
   template <class Seen>
   [[gnu::flatten]] void touch_all(const Particles& p, std::span<WallTouch> touches, int wall_type,

@@ -41,8 +41,8 @@ struct TangentialHistory {
     TangentialForce on_i{-normal.tangential_stiffness * elongation - damping * c.slip, {}};
     on_i.dashpot = -damping * c.slip;
     // The slider gives way by what the spring is shortened, against the mean force of the step.
-    on_i.heat.sliding =
-        0.5 * normal.tangential_stiffness / dt * dot(before + elongation, (1 - held) * spring);
+    on_i.heat.sliding = 0.5 / dt * normal.tangential_stiffness * (1 - held) *
+                        (dot(before, spring) + held * dot(spring, spring));
     // With it the work of the mean force and what the spring stores are accounted for exactly.
     const double stiffness_before = c.before.tangential_stiffness;
     const double along_normal = dot(before, c.normal);
