@@ -249,9 +249,13 @@ std::string effects_table(const SceneState& scene, EffectSet own, EffectSet avai
 EffectWatch::EffectWatch(EffectSet own, EffectSet available, EffectSet on)
     : own_(own), available_(available), on_(on) {}
 
+bool EffectWatch::would_be_due(long step) const {
+  return step < last_look_ || step >= last_look_ + until_next_; // it has come, or steps are reset
+}
+
 bool EffectWatch::due(long step) {
   constexpr long longest = 1000;
-  if (step >= last_look_ && step < last_look_ + until_next_) // else it has come, or steps are reset
+  if (!would_be_due(step))
     return false;
   last_look_ = step;
   until_next_ = std::min(4 * until_next_, longest);

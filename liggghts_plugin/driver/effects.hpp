@@ -99,6 +99,7 @@ public:
   /// Whether it is time to compute the numbers anew: after 1, 4, 16, ... steps, from there on every
   /// 1000, for that takes 60 to 150 instructions a particle.
   [[nodiscard]] bool due(long step);
+  [[nodiscard]] bool would_be_due(long step) const;
   /// Those above their thresholds before the run are in the table: no news.
   void begin(const coupling::SceneState& scene);
   [[nodiscard]] std::string warnings(const coupling::SceneState& scene);

@@ -109,6 +109,10 @@ protected:
   void open_books();
   /// In every step, unless the gas brings it about.
   void step_alone();
+  /// Whether it looks at the scene in that step, for what has become of effects that are off.
+  [[nodiscard]] bool looks_at_scene(long step) const {
+    return options().effects.given() && watch_.would_be_due(step);
+  }
   /// Of this step of temperature of `dt` seconds, but what goes into walls.
   void book(const HeatPowers& powers, double dt) {
     powers_ = powers;

@@ -15,6 +15,7 @@
 #include "driver/heat_fix.hpp"
 #include "heat_materials.hpp"
 #include "particle_subset/heat_port.hpp"
+#include "particle_subset/rare_look.hpp"
 #include "particle_subset/temperature_step.hpp"
 
 namespace LAMMPS_NS {
@@ -34,7 +35,8 @@ class FixCouple;
 /// through contacts and gaps, radiation, the heat of friction
 /// (docs/reference/fix_granflux_heat.md).
 class FixHeat : public driver::HeatFix<LAMMPS_NS::Fix, FixCouple>,
-                public particle_subset::HeatPort {
+                public particle_subset::HeatPort,
+                public particle_subset::RareLook {
 public:
   FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
@@ -51,6 +53,11 @@ public:
   [[nodiscard]] particle_subset::HeatOfContacts heat_of_contacts() override;
   [[nodiscard]] double reach() const override { return reach_; }
   [[nodiscard]] double* parted_heat() override;
+
+  /// Gaps and radiation are found from where particles are; all else from contacts and forces.
+  [[nodiscard]] bool looks_at(long step) const override {
+    return (options_.near.any() && step % options_.every == 0) || looks_at_scene(step);
+  }
 
   void describe(coupling::SceneState& scene) override;
 

@@ -62,6 +62,18 @@ struct TangentialForce {
   Vec3 dashpot = {}, rubbing = {}; ///< the parts that resist the slip
 };
 
+/// Adds a tangential force, with what it resists and makes of heat, to what a normal law has begun
+/// of a contact between particles or at a wall.
+template <class ForceOfContact>
+void add_tangential(ForceOfContact& f, const TangentialForce& tangential) {
+  const double by_normal_dashpot = f.heat.damping;
+  f.force += tangential.force;
+  f.damping.force += tangential.dashpot;
+  f.rubbing.force = tangential.rubbing;
+  f.heat = tangential.heat;
+  f.heat.damping += by_normal_dashpot;
+}
+
 /// Of rolling friction, with what it turns into heat.
 struct RollingTorque {
   Vec3 on_j;              ///< the opposite on i

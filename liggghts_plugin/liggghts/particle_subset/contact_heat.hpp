@@ -195,4 +195,26 @@ private:
   void give(int p, double conduction, double conductance, double friction, double damping) const;
 };
 
+/// The sliders' work at one wall by one thread, in a time step in which it is all the heat that
+/// counts (HeatOfContacts::keeps_sliders_work_alone()).
+class KeptAtWall {
+public:
+  explicit KeptAtWall(const HeatOfWall& wall)
+      : arrays_(wall.contacts.arrays), wall_share_(wall.contacts.law->options().wall_share) {}
+  ~KeptAtWall() { arrays_.sums[omp_get_thread_num()].to_walls += wall_share_ * power_; }
+  KeptAtWall(const KeptAtWall&) = delete;
+  KeptAtWall& operator=(const KeptAtWall&) = delete;
+
+  /// The particle's share is kept, the wall's is summed [W].
+  void add(int p, double power) {
+    arrays_.kept.friction[p] += arrays_.kept.dt * ((1 - wall_share_) * power);
+    power_ += power;
+  }
+
+private:
+  const HeatArrays& arrays_;
+  const double wall_share_;
+  double power_ = 0;
+};
+
 } // namespace granflux::particle_subset

@@ -105,21 +105,14 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
       normal.force += k.cohesion.in_friction * pull;
     }
     if constexpr (Tangential::acts) {
-      const auto [tangential, heat, tangential_dashpot, rubbing] =
+      const TangentialForce tangential =
           Tangential::force(k.tangential, c, normal, dt, tangential_history);
-      f.force += tangential;
-      f.damping.force += tangential_dashpot;
-      f.rubbing.force = rubbing;
-      f.heat.sliding = heat.sliding;
-      f.heat.slider_force = heat.slider_force;
-      f.heat.slip_squared = heat.slip_squared;
-      f.heat.damping += heat.damping;
-      f.heat.turning = heat.turning;
-      const Vec3 moment = cross(c.normal, tangential);
+      add_tangential(f, tangential);
+      const Vec3 moment = cross(c.normal, tangential.force);
       f.torque_i = -arm_i * moment;
       f.torque_j = -arm_j * moment;
-      turn(f.damping, cross(c.normal, tangential_dashpot), arm_i, arm_j);
-      turn(f.rubbing, cross(c.normal, rubbing), arm_i, arm_j);
+      turn(f.damping, cross(c.normal, tangential.dashpot), arm_i, arm_j);
+      turn(f.rubbing, cross(c.normal, tangential.rubbing), arm_i, arm_j);
     }
     if constexpr (Rolling::acts) {
       const RollingTorque rolling = Rolling::torque(k.rolling, c, normal, dt, rolling_history);

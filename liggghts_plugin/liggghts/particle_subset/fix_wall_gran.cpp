@@ -294,6 +294,7 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
   if (!by_kernel_ && !all_of_one_type())
     return false;
   makes_heat_ = heat_ && !heat_->heat_of_contacts().rests();
+  springs_leave_heat_ = makes_heat_ && by_kernel_ && dnum() > 0 && heat_->parted_heat();
   if (meshwall_ == 1) {
     for (int mesh = 0; mesh < n_FixMesh_; ++mesh)
       begin_mesh(mesh);
@@ -409,7 +410,7 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
   if (gap > cutneighmax_)
     return;
   if (gap > 0) {
-    if (makes_heat_ && by_kernel_ &&
+    if (springs_leave_heat_ &&
         std::any_of(history, history + dnum(), [](double h) { return h != 0; })) {
       const WallTouch last = primitive_touch(particle, gap, to_wall, wall_velocity, history);
       primitive_heat_.add_parted(
@@ -481,7 +482,7 @@ void FixWallGran::touch_mesh(Mesh& mesh, Range block) {
   }
   if (!mesh.history)
     return;
-  if (makes_heat_ && by_kernel_ && dnum() > 0)
+  if (springs_leave_heat_)
     for (auto p = first; p != pairs.particle.end() && *p < block.end; ++p)
       leave_mesh(mesh, *p);
   mesh.history->cleanUpContacts(block.begin, block.end);
@@ -580,7 +581,7 @@ void FixWallGran::end_own_work() {
 
 /// Where meshes are of different types, and in the setup of a run: one after the other.
 void FixWallGran::post_force_mesh(int vflag) {
-  by_kernel_ = makes_heat_ = false;    // in a setup histories stay as they are
+  by_kernel_ = makes_heat_ = springs_leave_heat_ = false; // in a setup histories stay as they are
   if (addflag_ || reason_for_stock_) { // addflag: asked by a compute, contact by contact
     LAMMPS_NS::FixWallGran::post_force_mesh(vflag);
     return;

@@ -112,12 +112,13 @@ private:
   int frozen_group_ = 0;                   // whose forces move nothing
   std::atomic<int> centred_ = -1;          // a particle that has its centre on the wall
   Vec3 centred_at_;
-  HeatPort* heat_ = nullptr;      // null: none
-  bool makes_heat_ = false;       // in this step
-  HeatOfWall primitive_heat_;     // of this step
-  bool primitive_stands_ = false; // it rests, and particles are frozen
-  StandingContacts standing_;     // of those near the primitive
-  bool standing_current_ = false; // for its list
+  HeatPort* heat_ = nullptr;        // null: none
+  bool makes_heat_ = false;         // in this step
+  bool springs_leave_heat_ = false; // likewise, of contacts that end
+  HeatOfWall primitive_heat_;       // of this step
+  bool primitive_stands_ = false;   // it rests, and particles are frozen
+  StandingContacts standing_;       // of those near the primitive
+  bool standing_current_ = false;   // for its list
   Particles particles_;
   std::vector<Mesh> meshes_;
 };

@@ -43,6 +43,7 @@ public:
   /// Before the forces: of one pair. Constants where there are several types.
   void set_constants(int k, int type_i, int type_j) { set_constants(k, law_.pair(type_i, type_j)); }
   void gather(int k, int i, int j) {
+    __builtin_prefetch(to_ + j, 1);
     if (conducts_)
       warmer_[k] = arrays_.temperature[j] - arrays_.temperature[i];
   }

@@ -28,7 +28,7 @@ public:
   KeptWork& operator=(const KeptWork&) = delete;
 
   void set_constants(int k, int type_i, int type_j) { share_[k] = law_.pair(type_i, type_j).share; }
-  void gather(int, int, int) {}
+  void gather(int, int, int j) { __builtin_prefetch(energy_ + j, 1); }
   template <class Law> void set(int k, const ContactForce& f) {
     double power = f.heat.sliding;
     if constexpr (Law::rolls)

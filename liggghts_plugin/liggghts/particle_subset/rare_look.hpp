@@ -4,8 +4,8 @@
 
 namespace granflux::particle_subset {
 
-/// A fix that is called at the end of every step, but looks at particles in few of them: the
-/// others may leave the second half of their motion to the next step.
+/// A fix that is called at the end of every step, but looks at the motion of particles in few of
+/// them: in the others they may move on before.
 class RareLook {
 public:
   virtual ~RareLook() = default;

@@ -35,6 +35,14 @@ public:
   }
   void add_with_heat(const Particles& p, std::span<WallTouch> touches, int wall_type, double dt,
                      const HeatOfWall& heat) const override {
+    if constexpr (!Law::rubs)
+      if (heat.contacts.keeps_sliders_work_alone()) {
+        KeptAtWall kept(heat);
+        touch_all(p, touches, wall_type, dt, [&](const WallTouch& touch, const Force& f) {
+          kept.add(touch.particle, f.heat.sliding + f.heat.rolling);
+        });
+        return;
+      }
     const auto add = [&](const WallTouch& touch, const Force& f, const Dissipation& made) {
       const int i = touch.particle;
       heat.add(i, p.type[i], wall_type, p.radius[i], -touch.gap, f.pressing, made);

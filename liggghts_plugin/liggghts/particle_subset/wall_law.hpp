@@ -82,19 +82,12 @@ template <class Normal, class Tangential, class Rolling, class Cohesion> struct 
       normal.force += k.cohesion.in_friction * pull;
     }
     if constexpr (Tangential::acts) {
-      const auto [tangential, heat, tangential_dashpot, rubbing] =
+      const TangentialForce tangential =
           Tangential::force(k.tangential, c, normal, dt, tangential_history);
-      f.force += tangential;
-      f.damping.force += tangential_dashpot;
-      f.rubbing.force = rubbing;
-      f.heat.sliding = heat.sliding;
-      f.heat.slider_force = heat.slider_force;
-      f.heat.slip_squared = heat.slip_squared;
-      f.heat.damping += heat.damping;
-      f.heat.turning = heat.turning;
-      f.torque = -arm * cross(c.normal, tangential);
-      f.damping.torque = -arm * cross(c.normal, tangential_dashpot);
-      f.rubbing.torque = -arm * cross(c.normal, rubbing);
+      add_tangential(f, tangential);
+      f.torque = -arm * cross(c.normal, tangential.force);
+      f.damping.torque = -arm * cross(c.normal, tangential.dashpot);
+      f.rubbing.torque = -arm * cross(c.normal, tangential.rubbing);
     }
     if constexpr (Rolling::acts) {
       const RollingTorque rolling = Rolling::torque(k.rolling, c, normal, dt, rolling_history);
