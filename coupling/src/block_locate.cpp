@@ -264,6 +264,11 @@ private:
     int cell; ///< number
     std::uint32_t points;
   };
+  /// A face that points of its cell may move to.
+  struct Ahead {
+    std::array<float, 3> normal;
+    float room; ///< of the point nearest to it
+  };
 
   [[nodiscard]] Vec3 place(int k) const {
     const auto n = std::size_t(k);
@@ -302,26 +307,32 @@ private:
       ny[s] = radius_ * f.normal[1];
       nz[s] = radius_ * f.normal[2];
     }
+    alignas(64) std::array<std::array<float, most>, sides> h;
     std::uint32_t inside = 0;
-    float room = room_;
-#pragma omp simd reduction(| : inside) reduction(min : room)
+#pragma omp simd reduction(| : inside)
     for (std::size_t k = 0; k < most; ++k) {
-      float beyond = height[0] + nx[0] * points_.x[k] + ny[0] * points_.y[k] + nz[0] * points_.z[k];
+      float beyond = -Room::unbounded;
 #pragma GCC unroll 8
-      for (std::size_t s = 1; s < sides; ++s) {
-        const float h =
-            height[s] + nx[s] * points_.x[k] + ny[s] * points_.y[k] + nz[s] * points_.z[k];
-        beyond = h > beyond ? h : beyond;
+      for (std::size_t s = 0; s < sides; ++s) {
+        h[s][k] = height[s] + nx[s] * points_.x[k] + ny[s] * points_.y[k] + nz[s] * points_.z[k];
+        beyond = h[s][k] > beyond ? h[s][k] : beyond;
       }
       const std::uint32_t bit = left_ & (1u << k);
-      const bool taken = (bit != 0) & (beyond < 0);
-      inside |= taken ? bit : 0u;
-      const float own = taken ? -beyond : room_;
-      room = own < room ? own : room;
+      inside |= beyond < 0 ? bit : 0u;
     }
-    room_ = room;
     left_ &= ~inside;
     taken_[std::size_t(cells_++)] = {number, inside};
+    if (inside == 0)
+      return;
+    for (std::size_t s = 0; s < sides; ++s) {
+      float room = Room::unbounded;
+#pragma omp simd reduction(min : room)
+      for (std::size_t k = 0; k < most; ++k) {
+        const float own = (inside & (1u << k)) != 0 ? -h[s][k] : Room::unbounded;
+        room = own < room ? own : room;
+      }
+      faces_[std::size_t(face_count_++)] = {cell.faces[s].normal, room};
+    }
   }
 
   /// A point that planes do not tell. Outside all cells it counts with the centre.
@@ -330,7 +341,7 @@ private:
     const int found = blocks_.find(place(k));
     if (found == none) {
       taken_[0].points |= bit;
-      room_ = std::min(room_, float(blocks_.away_from_all(place(k))));
+      ball_ = std::min(ball_, float(blocks_.away_from_all(place(k))));
     } else {
       const int s = slot(found);
       if (s == cells_)
@@ -338,9 +349,37 @@ private:
       if ((left_ & bit) == 0)
         return;
       taken_[std::size_t(s)].points |= bit; // next to a face
-      room_ = 0;
+      ball_ = 0;
     }
     left_ &= ~bit;
+  }
+
+  /// Before the nearest face and those that face it; before all others a ball.
+  [[nodiscard]] Room room() const {
+    constexpr double parallel = 1e-5; // least difference of normals that counts
+    const auto end = faces_.begin() + face_count_;
+    const auto nearest = std::min_element(
+        faces_.begin(), end, [](const Ahead& a, const Ahead& b) { return a.room < b.room; });
+    if (nearest == end)
+      return {};
+    Room found{.ball = ball_, .normal = nearest->normal};
+    const auto difference = [&](const Ahead& face, float sign) {
+      Vec3 d;
+      for (int i = 0; i < 3; ++i)
+        d[i] = face.normal[std::size_t(i)] - sign * found.normal[std::size_t(i)];
+      return norm(d);
+    };
+    for (auto face = faces_.begin(); face != end; ++face)
+      if (difference(*face, 1) < parallel)
+        found.high = std::min(found.high, face->room);
+      else if (difference(*face, -1) < parallel)
+        found.low = std::max(found.low, -face->room);
+      else
+        found.ball = std::min(found.ball, face->room);
+    const float unlike = float(parallel) * found.ball;
+    found.high -= unlike;
+    found.low += unlike;
+    return found;
   }
 
   [[nodiscard]] PointsInCells in_order() {
@@ -350,7 +389,7 @@ private:
       return std::countr_zero(a.points) < std::countr_zero(b.points);
     });
     PointsInCells found;
-    found.room = double(room_);
+    found.room = room();
     for (auto t = taken_.begin(); t != end; ++t)
       found.parts[std::size_t(found.count++)] = {blocks_.in_stack(t->cell),
                                                  std::popcount(t->points)};
@@ -364,7 +403,9 @@ private:
   std::uint32_t left_ = 0;            ///< points whose cell is not known yet
   std::array<Taken, 2 * most> taken_; ///< cells looked at, that of the centre first
   int cells_ = 0;
-  float room_ = std::numeric_limits<float>::max();
+  std::array<Ahead, 6 * 2 * most> faces_;
+  int face_count_ = 0;
+  float ball_ = std::numeric_limits<float>::max();
 };
 
 BlockLocator::PointsInCells BlockLocator::cells(const PointSet& points, const Vec3& centre,

@@ -10,6 +10,7 @@
 #include <granflux/cfd/mesh.hpp>
 #include <granflux/coupling/block_stack.hpp>
 #include <granflux/coupling/grid_extent.hpp>
+#include <granflux/coupling/room.hpp>
 
 namespace granflux::coupling {
 
@@ -49,8 +50,8 @@ public:
       int points;
     };
     std::array<Part, PointSet::most> parts;
-    int count = 0;   ///< of parts
-    double room = 0; ///< how far all points may move together while each stays in its cell [m]
+    int count = 0; ///< of parts
+    Room room;     ///< in which all points may move together while each stays in its cell
     [[nodiscard]] auto begin() const { return parts.begin(); }
     [[nodiscard]] auto end() const { return parts.begin() + count; }
   };

@@ -45,9 +45,9 @@ private:
   struct Found {
     Vec3 centre;
     double radius = 0;
-    double room_squared = 0; ///< how far it may move; 0: its shares are found anew
+    Room room;
     [[nodiscard]] bool serves(const Vec3& x, double r) const {
-      return r == radius && dot(x - centre, x - centre) < room_squared;
+      return (r == radius) & room.holds(x - centre);
     }
   };
   /// What a kernel says of one particle.
@@ -121,7 +121,7 @@ void ShareLists::find_one(const Kernel& kernel, const Locator& locator,
     entries.cell[entries.count] = cell;
     entries.parts[entries.count++] = std::uint8_t(std::lround(share * Kernel::parts));
   };
-  [[maybe_unused]] double room = 0;
+  [[maybe_unused]] Room room;
   if (particles.takes_part(p)) {
     const Vec3 centre = locator.fold(particles.position[p]);
     if (const auto cell = cell_near(locator, centre, p)) {
@@ -136,7 +136,7 @@ void ShareLists::find_one(const Kernel& kernel, const Locator& locator,
       ++mine.placing.outside;
     }
     if constexpr (tells_room<Kernel, Locator>)
-      found_[p] = {centre, particles.radius[p], room > 0 ? room * room : 0};
+      found_[p] = {centre, particles.radius[p], room};
   } else if constexpr (tells_room<Kernel, Locator>) {
     found_[p] = {};
   }

@@ -17,9 +17,9 @@ struct Centre {
     emit(particle.cell, 1.0);
   }
   template <class Emit>
-  double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
+  Room operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
     emit(particle.cell, 1.0);
-    return blocks.room(particle.cell, particle.centre);
+    return {.ball = float(blocks.room(particle.cell, particle.centre))};
   }
 };
 

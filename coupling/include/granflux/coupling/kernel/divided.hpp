@@ -24,11 +24,11 @@ struct Divided {
   static constexpr int parts = points;
 
   template <class Emit>
-  double operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
+  Room operator()(const BlockLocator& blocks, const ParticlePlace& particle, Emit&& emit) const {
     const double room = blocks.room(particle.cell, particle.centre) - outermost() * particle.radius;
     if (room > 0) {
       emit(particle.cell, 1.0);
-      return room;
+      return {.ball = float(room)};
     }
     const auto found = blocks.cells(point_set(), particle.centre, particle.radius, particle.cell);
     for (const auto& [cell, count] : found)

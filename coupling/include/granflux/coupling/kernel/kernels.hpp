@@ -30,7 +30,7 @@ inline constexpr bool tells_room = requires(const Kernel kernel, const Locator& 
                                             const ParticlePlace& particle) {
   {
     kernel(locator, particle, [](const cfd::Index3&, double) {})
-    } -> std::same_as<double>;
+    } -> std::same_as<Room>;
 };
 
 /// Whether its shares are products in one cube of cells.
