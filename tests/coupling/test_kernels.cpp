@@ -274,14 +274,14 @@ TEST(Kernels, DividedOnFittedGrids) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> along(-0.5, 0.5);
   using Shares = std::vector<std::pair<cfd::Index3, double>>;
-  int several = 0, at_walls = 0, without_room = 0;
+  int several = 0, at_walls = 0, without_room = 0, kept = 0;
   for (int p = 0; p < 5000; ++p) {
     const Vec3 centre{along(random), along(random), 0.4 + 0.8 * along(random)};
     const double radius = 0.02 + 0.2 * std::abs(along(random));
     const auto cell = blocks.cell(centre);
     if (!cell)
       continue;
-    Shares wanted, found;
+    Shares wanted;
     for (const Vec3& offset : Divided::offsets()) {
       const auto in = blocks.cell(centre + radius * offset);
       at_walls += !in;
@@ -295,17 +295,31 @@ TEST(Kernels, DividedOnFittedGrids) {
     }
     for (auto& share : wanted)
       share.second /= Divided::points;
-    const Room room =
-        Divided{}(blocks, ParticlePlace{centre, radius, *cell},
-                  [&](const cfd::Index3& c, double share) { found.emplace_back(c, share); });
+    const auto shares_at = [&](const Vec3& x, const cfd::Index3& in) {
+      Shares of_cells;
+      const Room room =
+          Divided{}(blocks, ParticlePlace{x, radius, in},
+                    [&](const cfd::Index3& c, double share) { of_cells.emplace_back(c, share); });
+      return std::pair(of_cells, room);
+    };
+    const auto [found, room] = shares_at(centre, *cell);
     EXPECT_EQ(found, wanted);
     EXPECT_LT(room.ball, 0.5);
     several += found.size() > 2;
     without_room += !room.holds({}); // searched for anew in every coupling step
+    for (const double part : {0.3, 0.6, 0.9, 0.999}) {
+      const Vec3 way{along(random), along(random), along(random)};
+      const Vec3 moved = centre + part * double(room.ball) / norm(way) * way;
+      if (const auto in = blocks.cell(moved); in && room.holds(moved - centre)) {
+        EXPECT_EQ(shares_at(moved, *in).first, found);
+        ++kept;
+      }
+    }
   }
   EXPECT_GT(several, 1000);
   EXPECT_GT(at_walls, 1000);
   EXPECT_LT(without_room, 15);
+  EXPECT_GT(kept, 1000);
 }
 
 } // namespace
