@@ -261,12 +261,12 @@ def scenes(quick):
     return found
 
 
-def paper(quick, done, keep):
-    """Quick: the same scenes, smaller where the paper's are large, with fewer steps and rounds. `done`: scenes of an
-    earlier run, which are not run again; keep(result) is called after each."""
+def paper(quick, only, done, keep):
+    """Quick: the same scenes, smaller where the paper's are large, with fewer steps and rounds. `only`: a pattern of
+    titles. `done`: scenes of an earlier run, which are not run again; keep(result) is called after each."""
     result = {"quick": quick, "rounds": 3 if quick else 5, "scenes": dict(done)}
     for title, (what, said, make, more) in scenes(quick).items():
-        if title in done:
+        if title in done or not re.search(only, title):
             continue
         with tempfile.TemporaryDirectory() as top:
             scene = make(Path(top) / "scene")
