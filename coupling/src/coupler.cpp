@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include <granflux/cfd/case_mesh.hpp>
@@ -207,10 +208,10 @@ struct Coupler::Impl {
   // The stages of an exchange.
   void locate(const ParticleView& view);
   void choose_smoothing(const ParticleView& view);
-  void smooth(std::size_t fields);
+  template <std::size_t K> void smooth();
   template <std::size_t K> std::span<Values<K>> window();
-  template <std::size_t K> void deposit(std::vector<Values<K>>& values);
-  template <std::size_t K> void sample(std::vector<Values<K>>& values);
+  template <std::size_t K> void deposit(std::span<const double> values);
+  template <std::size_t K> void sample(std::span<double> values);
   void find_void_fraction(const ParticleView& view, ExchangeSums& sums);
   void check_void_fraction(ExchangeSums& sums) const;
   std::string too_little_gas(std::size_t b, double least) const;
@@ -223,13 +224,13 @@ struct Coupler::Impl {
   Lanes drag_of(const Law& law, const SeenBlock& seen, ExchangeSums& mine) const;
   template <class Law>
   ExchangeSums charge(const Law& law, const ParticleView& view, double interval);
-  void set_momentum_exchange(double interval, ExchangeSums& sums);
+  void set_momentum_exchange();
+  void set_exchange(double interval, ExchangeSums& sums);
   void take_drag_at_start(double interval, ExchangeSums& sums);
   void sample_new_gas();
   struct NewGas {
     VectorLanes velocity, pressure_force;
   };
-  [[nodiscard]] const double* new_gas_at(std::size_t p) const;
   [[nodiscard]] NewGas see_new_gas(const ParticleView& view, std::size_t first,
                                    std::size_t count) const;
   ExchangeSums book(const ParticleView& view, double interval);
@@ -241,7 +242,24 @@ struct Coupler::Impl {
   template <class Law>
   ExchangeSums charge_heat(const Law& law, const ParticleView& view, double interval);
   void set_heat_exchange();
-  void sample_new_heat();
+  [[nodiscard]] bool with_heat() const { return gas_case.energy.has_value(); }
+  // Numbers of a particle in `charged` and `new_gas`: those of momentum come first.
+  [[nodiscard]] std::size_t charged_with_momentum() const {
+    return options.effects.any_force() ? 4 : 0;
+  }
+  [[nodiscard]] std::size_t charged_numbers() const {
+    return charged_with_momentum() + (with_heat() ? 2 : 0);
+  }
+  [[nodiscard]] std::size_t flow_numbers() const {
+    return options.effects.pressure_gradient ? 6 : 3;
+  }
+  [[nodiscard]] std::size_t new_gas_numbers() const {
+    return flow_numbers() + (with_heat() ? 1 : 0);
+  }
+  double* charged_to(std::size_t p) { return charged.data() + charged_numbers() * p; }
+  [[nodiscard]] const double* new_gas_at(std::size_t p) const {
+    return new_gas.data() + new_gas_numbers() * p;
+  }
   ExchangeSums book_heat(const ParticleView& view, double interval);
 
   void advance_alone(double interval);
@@ -292,16 +310,16 @@ struct Coupler::Impl {
   cfd::HeatExchange heat;         ///< empty without an energy equation, and unless both ways
   cfd::BlockFields void_fraction;
   std::vector<double> window_values;
-  std::array<cfd::BlockFields, 6> work; ///< on gas cells, between messages and solver
+  std::array<cfd::BlockFields, 7> work; ///< on gas cells, between messages and solver
 
   // Per particle: what is deposited or sampled.
-  std::vector<Values<1>> volume;     ///< V_p [m3]
-  std::vector<Values<4>> old_gas;    ///< eps, u before the gas step
-  std::vector<Values<4>> drag_terms; ///< b_eff, b_eff v - hand-over / T
-  std::vector<Values<6>> new_gas;    ///< u, grad p after the gas step
-  std::vector<Values<3>> new_flow;   ///< u alone, where the pressure gradient is off
-  std::vector<Values<2>> heat_terms; ///< hA_eff, hA_eff T - hand-over / interval
-  std::vector<Values<1>> new_heat;   ///< gas temperature after the gas step
+  std::vector<double> volume;     ///< V_p [m3]
+  std::vector<Values<4>> old_gas; ///< eps, u before the gas step
+  /// Where there are forces b_eff, b_eff v - hand-over / T; with heat hA_eff, hA_eff T - hand-over
+  /// / interval.
+  std::vector<double> charged;
+  /// After the gas step: u; grad p where there are pressure forces; the temperature with heat.
+  std::vector<double> new_gas;
 };
 
 void Coupler::Impl::locate(const ParticleView& view) {
@@ -326,18 +344,13 @@ void Coupler::Impl::choose_smoothing(const ParticleView& view) {
     smoothing.emplace(mesh, halo, options.smoothing_width * smoothing_diameter);
 }
 
-/// S on the first fields of `work`.
-void Coupler::Impl::smooth(std::size_t fields) {
-  if (!smoothing)
-    return;
-  if (fields == 1)
-    smoothing->apply({&work[0]});
-  else if (fields == 2)
-    smoothing->apply({&work[0], &work[1]});
-  else if (fields == 4)
-    smoothing->apply({&work[0], &work[1], &work[2], &work[3]});
-  else
-    smoothing->apply({&work[0], &work[1], &work[2], &work[3], &work[4], &work[5]});
+/// S on the first K fields of `work`.
+template <std::size_t K> void Coupler::Impl::smooth() {
+  if (smoothing)
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+      smoothing->apply({&work[k]...});
+    }
+  (std::make_index_sequence<K>());
 }
 
 /// K numbers of each cell of the window: what `window_values` held before is lost.
@@ -349,17 +362,25 @@ template <std::size_t K> std::span<Values<K>> Coupler::Impl::window() {
   return {reinterpret_cast<Values<K>*>(window_values.data()), cells};
 }
 
+/// Numbers of particles, K each.
+template <std::size_t K> std::span<const Values<K>> rows(std::span<const double> numbers) {
+  return {reinterpret_cast<const Values<K>*>(numbers.data()), numbers.size() / K};
+}
+template <std::size_t K> std::span<Values<K>> rows(std::span<double> numbers) {
+  return {reinterpret_cast<Values<K>*>(numbers.data()), numbers.size() / K};
+}
+
 template <std::size_t K> std::span<double> flat(std::span<Values<K>> values) {
   return {reinterpret_cast<double*>(values.data()), K * values.size()};
 }
 
 /// work := S (sum_p w q_p / V)
-template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& values) {
+template <std::size_t K> void Coupler::Impl::deposit(std::span<const double> values) {
   std::array<cfd::BlockFields*, K> fields;
   const std::span<Values<K>> sums = window<K>();
   {
     const Stopwatch watch(times.deposit);
-    weights.deposit(std::span<const Values<K>>(values), sums);
+    weights.deposit(rows<K>(values), sums);
     for (std::size_t k = 0; k < K; ++k) {
       fields[k] = &work[k];
       for (cfd::Field& field : work[k])
@@ -376,17 +397,17 @@ template <std::size_t K> void Coupler::Impl::deposit(std::vector<Values<K>>& val
       for (std::size_t k = 0; k < K; ++k)
         work[k][b][c] /= mesh.local[b].volume[c];
     });
-  smooth(K);
+  smooth<K>();
 }
 
 /// values := sum_c w (S work)_c
-template <std::size_t K> void Coupler::Impl::sample(std::vector<Values<K>>& values) {
+template <std::size_t K> void Coupler::Impl::sample(std::span<double> values) {
   std::array<const cfd::BlockFields*, K> fields;
   for (std::size_t k = 0; k < K; ++k)
     fields[k] = &work[k];
   {
     const Stopwatch watch(times.sample);
-    smooth(K);
+    smooth<K>();
   }
   const std::span<Values<K>> gas_values = window<K>();
   {
@@ -394,19 +415,18 @@ template <std::size_t K> void Coupler::Impl::sample(std::vector<Values<K>>& valu
     exchange.sample(fields, flat(gas_values));
   }
   const Stopwatch watch(times.sample);
-  values.resize(weights.particles());
-  weights.sample(std::span<const Values<K>>(gas_values), std::span<Values<K>>(values));
+  weights.sample(std::span<const Values<K>>(gas_values), rows<K>(values));
 }
 
 void Coupler::Impl::find_void_fraction(const ParticleView& view, ExchangeSums& sums) {
   volume.resize(view.size());
   sums += sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    volume[p].of[0] = weights.placed(p) ? sphere_volume(view.radius[p]) : 0;
-    mine.particle_volume += volume[p].of[0];
+    volume[p] = weights.placed(p) ? sphere_volume(view.radius[p]) : 0;
+    mine.particle_volume += volume[p];
   });
   sums.particles = double(weights.placed_count());
   sums.outside = double(weights.outside_count());
-  deposit(volume);
+  deposit<1>(volume);
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const cfd::Block& block = mesh.local[b];
     // Before it becomes 1 - eps, which has no digits left for a single small particle.
@@ -458,7 +478,8 @@ void Coupler::Impl::sample_old_gas() {
     for (std::size_t d = 0; d < 3; ++d)
       work[1 + d][b] = gas.velocity()[b][d];
   }
-  sample(old_gas);
+  old_gas.resize(weights.particles());
+  sample<4>(flat(std::span(old_gas)));
 }
 
 /// gas(p): the void fraction at a particle, and the gas velocity [m/s].
@@ -525,7 +546,7 @@ Lanes Coupler::Impl::drag_of(const Law& law, const SeenBlock& seen, ExchangeSums
 /// Drag coefficient of every particle, and what the gas is to be charged for it.
 template <class Law>
 ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, double interval) {
-  drag_terms.resize(view.size());
+  charged.resize(charged_numbers() * view.size());
   const bool at_once = options.drag_treatment != DragTreatment::implicit_in_both;
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
     Lanes b{}, effective{};
@@ -545,7 +566,7 @@ ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, dou
         handed_over.set(i, {});
         if (i < count) {
           view.fluid[p] = {};
-          drag_terms[p] = {};
+          std::fill_n(charged_to(p), charged_with_momentum(), 0);
         }
         continue;
       }
@@ -557,7 +578,10 @@ ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, dou
       const Vec3 hand_over = state.impulse - state.booked;
       const Vec3 still = explicit_drag() ? Vec3{ux, uy, uz} : Vec3{};
       const Vec3 source = effective[i] * (view.velocity[p] - still) - hand_over / interval;
-      drag_terms[p] = {{effective[i], source.x, source.y, source.z}};
+      if (charged_with_momentum() > 0) {
+        const Values<4> terms{{effective[i], source.x, source.y, source.z}};
+        std::copy(terms.of.begin(), terms.of.end(), charged_to(p));
+      }
       handed_over.set(i, hand_over);
     }
     mine.handed_over += handed_over.sum();
@@ -566,8 +590,24 @@ ExchangeSums Coupler::Impl::charge(const Law& law, const ParticleView& view, dou
   return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
-void Coupler::Impl::set_momentum_exchange(double interval, ExchangeSums& sums) {
-  deposit(drag_terms);
+/// What all particles are charged with, on the gas.
+void Coupler::Impl::set_exchange(double interval, ExchangeSums& sums) {
+  const bool forces = charged_with_momentum() > 0;
+  if (forces && with_heat())
+    deposit<6>(charged);
+  else if (forces)
+    deposit<4>(charged);
+  else if (with_heat())
+    deposit<2>(charged);
+  if (forces)
+    set_momentum_exchange();
+  if (forces && explicit_drag())
+    take_drag_at_start(interval, sums);
+  if (with_heat())
+    set_heat_exchange();
+}
+
+void Coupler::Impl::set_momentum_exchange() {
   const bool gas_bears_all =
       options.model == MomentumModel::b || !options.effects.pressure_gradient;
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
@@ -577,8 +617,6 @@ void Coupler::Impl::set_momentum_exchange(double interval, ExchangeSums& sums) {
         momentum.drag_source[b][d][c] = work[1 + d][b][c];
       momentum.pressure_fraction[b][c] = gas_bears_all ? 1 : void_fraction[b][c];
     });
-  if (explicit_drag())
-    take_drag_at_start(interval, sums);
 }
 
 /// The source is the drag of the slip before the gas step: nothing is left to go with the new
@@ -596,22 +634,24 @@ void Coupler::Impl::take_drag_at_start(double interval, ExchangeSums& sums) {
 
 void Coupler::Impl::sample_new_gas() {
   const bool with_pressure = options.effects.pressure_gradient;
-  for (std::size_t b = 0; b < mesh.local.size(); ++b)
+  for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     for (std::size_t d = 0; d < 3; ++d) {
       work[d][b] = gas.velocity()[b][d];
       if (with_pressure)
         work[3 + d][b] = gas.pressure_gradient()[b][d];
     }
-  if (with_pressure)
-    sample(new_gas);
+    if (with_heat())
+      work[flow_numbers()][b] = (*gas.temperature())[b];
+  }
+  new_gas.resize(new_gas_numbers() * weights.particles());
+  if (with_pressure && with_heat())
+    sample<7>(new_gas);
+  else if (with_pressure)
+    sample<6>(new_gas);
+  else if (with_heat())
+    sample<4>(new_gas);
   else
-    sample(new_flow);
-}
-
-/// Gas velocity [m/s] at a particle after the gas step: three numbers, which the pressure gradient
-/// follows where there is one.
-const double* Coupler::Impl::new_gas_at(std::size_t p) const {
-  return options.effects.pressure_gradient ? new_gas[p].of.data() : new_flow[p].of.data();
+    sample<3>(new_gas);
 }
 
 /// What a block of particles meets after the gas step.
@@ -650,7 +690,7 @@ ExchangeSums Coupler::Impl::book(const ParticleView& view, double interval) {
       drag_force.set(i, {});
       if (i >= count || !weights.placed(p))
         continue;
-      effective[i] = drag_terms[p].of[0];
+      effective[i] = charged_to(p)[0];
       drag_force.set(i, view.velocity[p]);
       if (explicit_drag())
         seen.velocity.set(i, {old_gas[p].of[1], old_gas[p].of[2], old_gas[p].of[3]});
@@ -751,7 +791,7 @@ Lanes Coupler::Impl::heat_response(const Lanes& conductance, const ParticleView&
 /// Conductance between gas and every particle, and what the gas is to be charged for it.
 template <class Law>
 ExchangeSums Coupler::Impl::charge_heat(const Law& law, const ParticleView& view, double interval) {
-  heat_terms.resize(view.size());
+  const std::size_t momentum_first = charged_with_momentum();
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
     const Lanes conductance = conductance_of(law, see_old_gas(view, first, count), mine);
     const Lanes lambda = heat_response(conductance, view, first, count, interval);
@@ -763,13 +803,14 @@ ExchangeSums Coupler::Impl::charge_heat(const Law& law, const ParticleView& view
       HeatState& state = view.heat[p];
       if (!weights.placed(p)) {
         state = {};
-        heat_terms[p] = {};
+        std::fill_n(charged_to(p) + momentum_first, 2, 0);
         continue;
       }
       state.conductance = conductance[i];
       handed_over[i] = state.received - state.booked;
-      heat_terms[p] = {
-          {effective[i], effective[i] * view.temperature[p] - handed_over[i] / interval}};
+      double* const terms = charged_to(p) + momentum_first;
+      terms[0] = effective[i];
+      terms[1] = effective[i] * view.temperature[p] - handed_over[i] / interval;
     }
     mine.heat_handed_over += sum(handed_over);
     mine.heat_exchanged += sum(lanes([&](std::size_t i) { return std::abs(handed_over[i]); }));
@@ -792,24 +833,19 @@ ExchangeSums Coupler::Impl::heat_particles(const Law& law, const ParticleView& v
         continue;
       }
       state.conductance = conductance[p - first];
-      state.gas_temperature = new_heat[p].of[0];
+      state.gas_temperature = new_gas_at(p)[flow_numbers()];
     }
   };
   return sum_blocks<ExchangeSums>(view.size(), of_block);
 }
 
 void Coupler::Impl::set_heat_exchange() {
-  deposit(heat_terms);
+  const std::size_t first = charged_with_momentum();
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
-      heat.coefficient[b][c] = work[0][b][c];
-      heat.source[b][c] = work[1][b][c];
+      heat.coefficient[b][c] = work[first][b][c];
+      heat.source[b][c] = work[first + 1][b][c];
     });
-}
-
-void Coupler::Impl::sample_new_heat() {
-  work[0] = *gas.temperature();
-  sample(new_heat);
 }
 
 /// What the gas step took from the gas for each particle.
@@ -821,8 +857,9 @@ ExchangeSums Coupler::Impl::book_heat(const ParticleView& view, double interval)
       if (!weights.placed(p))
         continue;
       HeatState& state = view.heat[p];
-      state.gas_temperature = new_heat[p].of[0];
-      state.booked = interval * heat_terms[p].of[0] * (state.gas_temperature - view.temperature[p]);
+      state.gas_temperature = new_gas_at(p)[flow_numbers()];
+      state.booked = interval * charged_to(p)[charged_with_momentum()] *
+                     (state.gas_temperature - view.temperature[p]);
       state.received = 0;
       booked[i] = state.booked;
     }
@@ -920,30 +957,21 @@ void Coupler::Impl::exchange_two_way(const ParticleView& view, double interval,
   {
     const Stopwatch watch(times.laws);
     sums += with_drag([&](const auto& law) { return charge(law, view, interval); });
-  }
-  if (options.effects.any_force())
-    set_momentum_exchange(interval, sums);
-  const bool with_heat = gas_case.energy.has_value();
-  if (with_heat) {
-    {
-      const Stopwatch watch(times.laws);
+    if (with_heat())
       sums +=
           std::visit([&](const auto& law) { return charge_heat(law, view, interval); }, nusselt);
-    }
-    set_heat_exchange();
   }
+  set_exchange(interval, sums);
   {
     const Stopwatch watch(times.gas);
-    report.gas = gas.advance(interval, void_fraction, &momentum, with_heat ? &heat : nullptr);
+    report.gas = gas.advance(interval, void_fraction, &momentum, with_heat() ? &heat : nullptr);
   }
-  if (options.effects.any_force())
+  if (charged_numbers() > 0)
     sample_new_gas();
-  if (with_heat)
-    sample_new_heat();
   const Stopwatch watch(times.laws);
   if (options.effects.any_force())
     sums += book(view, interval);
-  if (with_heat)
+  if (with_heat())
     sums += book_heat(view, interval);
 }
 
@@ -953,12 +981,9 @@ void Coupler::Impl::exchange_one_way(const ParticleView& view, double interval,
   sums.outside = double(weights.outside_count());
   advance_alone(interval);
   sample_new_gas();
-  const bool with_heat = gas_case.energy.has_value();
-  if (with_heat)
-    sample_new_heat();
   const Stopwatch watch(times.laws);
   sums += with_drag([&](const auto& law) { return act_on_particles(law, view, interval); });
-  if (with_heat)
+  if (with_heat())
     sums +=
         std::visit([&](const auto& law) { return heat_particles(law, view, interval); }, nusselt);
   sums.solid_volume = sums.particle_volume; // nothing is deposited
