@@ -356,27 +356,32 @@ private:
 
   /// Before the nearest face and those that face it; before all others a ball.
   [[nodiscard]] Room room() const {
-    constexpr double parallel = 1e-5; // least difference of normals that counts
+    constexpr float parallel = 1e-5F; // least difference of normals that counts
     const auto end = faces_.begin() + face_count_;
     const auto nearest = std::min_element(
         faces_.begin(), end, [](const Ahead& a, const Ahead& b) { return a.room < b.room; });
     if (nearest == end)
       return {};
     Room found{.ball = ball_, .normal = nearest->normal};
-    const auto difference = [&](const Ahead& face, float sign) {
-      Vec3 d;
-      for (int i = 0; i < 3; ++i)
-        d[i] = face.normal[std::size_t(i)] - sign * found.normal[std::size_t(i)];
-      return norm(d);
+    const auto is_normal = [&](const Ahead& face, float sign) {
+      float squared = 0;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const float difference = face.normal[d] - sign * found.normal[d];
+        squared += difference * difference;
+      }
+      return squared < parallel * parallel;
     };
-    for (auto face = faces_.begin(); face != end; ++face)
-      if (difference(*face, 1) < parallel)
+    for (auto face = faces_.begin(); face != end; ++face) {
+      if (face->room >= found.ball)
+        continue;
+      if (is_normal(*face, 1))
         found.high = std::min(found.high, face->room);
-      else if (difference(*face, -1) < parallel)
+      else if (is_normal(*face, -1))
         found.low = std::max(found.low, -face->room);
       else
-        found.ball = std::min(found.ball, face->room);
-    const float unlike = float(parallel) * found.ball;
+        found.ball = face->room;
+    }
+    const float unlike = parallel * found.ball;
     found.high -= unlike;
     found.low += unlike;
     return found;
