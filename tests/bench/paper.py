@@ -265,6 +265,8 @@ def paper(quick, only, done, keep):
     """Quick: the same scenes, smaller where the paper's are large, with fewer steps and rounds. `only`: a pattern of
     titles. `done`: scenes of an earlier run, which are not run again; keep(result) is called after each."""
     result = {"quick": quick, "rounds": 3 if quick else 5, "scenes": dict(done)}
+    if not any(re.search(only, title) for title in scenes(quick)):
+        sys.exit(f"--only {only}: of no scene; there are: {', '.join(scenes(quick))}")
     for title, (what, said, make, more) in scenes(quick).items():
         if title in done or not re.search(only, title):
             continue
