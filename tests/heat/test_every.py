@@ -8,6 +8,7 @@ import unittest
 import test_budget
 import test_conduction
 import test_energy
+import test_friction
 import test_gas
 from host import HostTest, last_snapshot, thermo_rows
 from warm_spheres import data_file, head, mass, thermo, wall
@@ -59,6 +60,49 @@ class Ledger(test_budget.Ledger):
         self.assertEqual(last_snapshot(self.read("temperatures")), whole)
 
     test_steps_with_virial = None
+
+
+class SlidersWork(test_budget.Ledger):
+    """Friction alone: between steps of temperature nothing but the sliders' work is found."""
+
+    def run_box(self, words="", **run):
+        text = super().box_script().replace("damping on", f"damping off conduction off wall_share 0.3 {words}")
+        output = self.run_script(text.replace("gas_gap 0.03 radiation 450", ""), **run)
+        return last_snapshot(self.read("temperatures")), test_budget.budget_entries(thermo_rows(output)[-1])
+
+    def test_each_particle_gets_the_work_of_every_step(self):
+        wanted, books = self.run_box()
+        warmer = books["friction"] / sum(row[1] * 800 for row in wanted.values())  # K, on the mean
+        for run in ({}, {"ranks": 2}, {"options": ["-threads", "2"]}):
+            atoms, found = self.run_box(f"heat_every {EVERY}", **run)
+            for name in ("friction", "to walls"):
+                self.assertAlmostEqual(found[name] / books[name], 1, delta=1e-11, msg=name)
+            for particle, row in atoms.items():
+                self.assertAlmostEqual(row[2], wanted[particle][2], delta=1e-6 * warmer)
+
+    def test_sampled(self):
+        _, books = self.run_box()
+        _, found = self.run_box(f"heat_every {EVERY} work sampled")
+        for name in ("friction", "to walls"):
+            self.assertAlmostEqual(found[name] / books[name], 1, delta=0.03, msg=name)
+
+    test_booked_is_what_temperatures_change_by = test_ranks_and_threads = None
+    test_restart = test_steps_with_virial = None
+
+
+class Sampled(test_friction.SlipToRoll):
+    """The power of a sphere that slips until it rolls falls to nothing along a straight line: where each
+    step of temperature takes the power at its end, it misses the step's part of the time of slipping."""
+
+    def test_sphere_slipping_until_it_rolls(self):
+        for every in (50, 100):
+            slipping, dt, rows = self.run_until_rolling(f"wall_share 0.5 heat_every {every} work sampled", mu=0.8)
+            made = (rows[-1][4] + rows[-1][5]) / (test_friction.MASS * test_friction.SPEED**2 / 7)
+            self.assertAlmostEqual((1 - made) / (every * dt / slipping), 1, delta=0.06)
+
+    test_heat_does_not_depend_on_friction = test_heat_does_not_depend_on_stiffness = None
+    test_half_of_it_goes_into_the_wall = test_by_friction_times_speed = test_off = None
+    test_a_rolling_sphere_makes_none = None
 
 
 class Cloud(test_energy.EnergyOfACloud):
