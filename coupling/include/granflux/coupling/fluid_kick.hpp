@@ -36,10 +36,11 @@ inline constexpr double small_lag_limit = 0.05;
   return {mean, mean - 1};
 }
 
-/// Coefficient with which drag of coefficient b [kg/s] acts on the gas over `interval` [s]: the
+/// Coefficient with which drag of coefficient b [kg/s] acts on the gas over an interval T [s]: the
 /// mean drag on a free particle of mass m [kg] is this times its slip at the start [kg/s].
-[[nodiscard]] inline double effective_coefficient(double b, double mass, double interval) {
-  return b * drag_response(b * interval / mass).mean;
+/// lambda = b T/m.
+[[nodiscard]] inline double effective_coefficient(double b, double lambda) {
+  return b * drag_response(lambda).mean;
 }
 
 /// Drag [N] whose impulse over `dt` takes a particle from `velocity` to the exact end of

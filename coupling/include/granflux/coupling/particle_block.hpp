@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
+#include <granflux/cfd/vec3.hpp>
 #include <granflux/coupling/compensated_sum.hpp>
 
 namespace granflux::coupling {
@@ -55,5 +57,26 @@ template <class Value> [[nodiscard]] Lanes lanes(Value&& value) {
     most = x[i] > most ? x[i] : most;
   return most;
 }
+
+/// A vector of each particle of a block.
+struct VectorLanes {
+  Lanes x, y, z;
+  void set(std::size_t i, const Vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+  [[nodiscard]] Vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Lanes& operator[](int d) { return d == 0 ? x : d == 1 ? y : z; }
+  const Lanes& operator[](int d) const { return d == 0 ? x : d == 1 ? y : z; }
+  VectorLanes& operator*=(const Lanes& factor) & {
+    for (Lanes* component : {&x, &y, &z})
+      *component = lanes([&](std::size_t i) { return (*component)[i] * factor[i]; });
+    return *this;
+  }
+  [[nodiscard]] CompensatedVec3 sum() const {
+    return {coupling::sum(x), coupling::sum(y), coupling::sum(z)};
+  }
+  [[nodiscard]] CompensatedSum sum_of_norms() const {
+    return coupling::sum(
+        lanes([&](std::size_t i) { return std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]); }));
+  }
+};
 
 } // namespace granflux::coupling

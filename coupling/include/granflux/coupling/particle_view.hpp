@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <span>
 
 #include <granflux/cfd/vec3.hpp>
@@ -25,6 +26,11 @@ struct FluidState {
 };
 inline constexpr int fluid_state_doubles = 17;
 static_assert(sizeof(FluidState) == fluid_state_doubles * sizeof(double));
+
+/// m3, of a radius in m.
+[[nodiscard]] inline double sphere_volume(double radius) {
+  return 4 * std::numbers::pi / 3 * radius * radius * radius;
+}
 
 /// The host's own particles of this rank (no ghosts), borrowed: valid until the host moves again.
 /// All spans have one entry a particle, or are empty where noted. SI units.
