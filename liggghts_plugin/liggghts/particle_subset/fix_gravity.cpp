@@ -7,6 +7,7 @@
 
 #include <liggghts/atom.h>
 
+#include "kick.hpp"
 #include "say_once.hpp"
 #include "team.hpp"
 
@@ -33,13 +34,7 @@ void FixGravity::own_work(int /*thread*/, Range block) {
   if (block.size() == 0)
     return;
   const double acceleration[3] = {xacc, yacc, zacc};
-  const int* const mask = atom->mask;
-  const double* const mass = atom->rmass;
-  double* const sums = atom->f[0];
-  for (int i = block.begin; i < block.end; ++i)
-    if (mask[i] & groupbit)
-      for (int d = 0; d < 3; ++d)
-        sums[3 * i + d] += mass[i] * acceleration[d];
+  add_weight(acceleration, groupbit, atom->rmass, atom->mask, atom->f[0], block);
 }
 
 void FixGravity::post_force(int vflag) {

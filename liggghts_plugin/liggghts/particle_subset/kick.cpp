@@ -13,11 +13,11 @@ namespace {
 constexpr int block = Subset::line;
 constexpr int numbers = 3 * block;
 
-bool all_move(const HalfKick& half, const int* mask) {
-  int common = half.group;
+bool all_of(int group, const int* mask) {
+  int common = group;
   for (int i = 0; i < block; ++i)
     common &= mask[i];
-  return common == half.group;
+  return common == group;
 }
 
 void spread(const double* factor, double* spread_factor) {
@@ -82,7 +82,7 @@ double kick_and_move_all(const HalfKick& half, double step, const Spheres& s, Ra
   };
   int i = range.begin;
   for (; i + block <= range.end; i += block) {
-    if (!all_move(half, s.mask + i)) {
+    if (!all_of(half.group, s.mask + i)) {
       for (int j = i; j < i + block; ++j)
         move_one(j);
       continue;
@@ -105,7 +105,7 @@ double kick_and_move_all(const HalfKick& half, double step, const Spheres& s, Ra
 void kick(const HalfKick& half, const Spheres& s, Range range) {
   int i = range.begin;
   for (; i + block <= range.end; i += block) {
-    if (all_move(half, s.mask + i))
+    if (all_of(half.group, s.mask + i))
       kick_block<1>(half, s, i);
     else
       for (int j = i; j < i + block; ++j)
@@ -121,6 +121,32 @@ double kick_and_move(const HalfKick& half, int halves, double step, const Sphere
                      Range range) {
   return halves == 2 ? kick_and_move_all<2>(half, step, spheres, range)
                      : kick_and_move_all<1>(half, step, spheres, range);
+}
+
+void add_weight(const double* acceleration, int group, const double* mass, const int* mask,
+                double* force, Range range) {
+  double accelerations[numbers];
+  for (int d = 0; d < numbers; ++d)
+    accelerations[d] = acceleration[d % 3];
+  const auto add_to_some = [&](int begin, int end) {
+    for (int j = begin; j < end; ++j)
+      if (mask[j] & group)
+        for (int d = 0; d < 3; ++d)
+          force[3 * j + d] += mass[j] * acceleration[d];
+  };
+  int i = range.begin;
+  for (; i + block <= range.end; i += block) {
+    if (!all_of(group, mask + i)) {
+      add_to_some(i, i + block);
+      continue;
+    }
+    double masses[numbers];
+    spread(mass + i, masses);
+    double* __restrict f = force + 3 * i;
+    for (int d = 0; d < numbers; ++d)
+      f[d] += masses[d] * accelerations[d];
+  }
+  add_to_some(i, range.end);
 }
 
 } // namespace granflux::particle_subset

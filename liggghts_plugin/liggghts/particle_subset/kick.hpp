@@ -32,4 +32,9 @@ void kick(const HalfKick& half, const Spheres& spheres, Range range);
 double kick_and_move(const HalfKick& half, int halves, double step, const Spheres& spheres,
                      Range range);
 
+/// Adds mass times `acceleration` (3 numbers) to the force, for the particles of `range` that are
+/// of the group.
+void add_weight(const double* acceleration, int group, const double* mass, const int* mask,
+                double* force, Range range);
+
 } // namespace granflux::particle_subset

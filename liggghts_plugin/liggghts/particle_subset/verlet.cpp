@@ -71,6 +71,14 @@ bool look_at_no_forces(const LAMMPS_NS::Modify& modify) {
   return true;
 }
 
+/// No fix is called between forces and motion but those that move meshes: heat looks at forces.
+bool forces_are_for_motion_alone(const LAMMPS_NS::Modify& modify) {
+  for (int i = 0; i < modify.nfix; ++i)
+    if ((modify.fmask[i] & PRE_FINAL_INTEGRATE) && !moves_meshes_only(*modify.fix[i]))
+      return false;
+  return true;
+}
+
 std::vector<const RareLook*> rare_looks(const LAMMPS_NS::Modify& modify) {
   std::vector<const RareLook*> found;
   for (int i = 0; i < modify.nfix; ++i)
@@ -117,9 +125,9 @@ bool asked_to_stop() {
 }
 
 void clear(LAMMPS_NS::Atom* atom, Range range) {
-  const auto bytes = 3 * sizeof(double) * std::size_t(range.size());
-  if (bytes == 0)
+  if (range.size() <= 0)
     return;
+  const auto bytes = 3 * sizeof(double) * std::size_t(range.size());
   std::memset(atom->f[range.begin], 0, bytes);
   std::memset(atom->torque[range.begin], 0, bytes);
 }
@@ -176,9 +184,11 @@ void Verlet::run(int steps) {
   if (auto* own = dynamic_cast<Neighbor*>(neighbor))
     own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
   may_owe_ = fixes_that_may_owe(*modify);
-  may_move_ahead_ = only_own_fixes_at(*modify, PRE_FINAL_INTEGRATE);
   rare_looks_ = rare_looks(*modify);
   fixes_before_forces_look_at_none_ = look_at_no_forces(*modify);
+  may_move_ahead_ = only_own_fixes_at(*modify, PRE_FINAL_INTEGRATE);
+  may_clear_ahead_ = fixes_before_forces_look_at_none_ && forces_are_for_motion_alone(*modify);
+  cleared_ahead_ = false;
   load_ = {};
   WorkTimes& times = work_times();
   times = {};
@@ -268,6 +278,7 @@ bool Verlet::lists_have_aged() {
 
 void Verlet::exchange_and_build_lists(bigint now) {
   WorkTimes& times = work_times();
+  cleared_ahead_ = false;
   {
     const Lap lap(times.neighbour_lists);
     if (modify->n_pre_exchange)
@@ -308,7 +319,7 @@ bool Verlet::ClearForces::begin_own_work(int /*eflag*/, int /*vflag*/) {
 void Verlet::ClearForces::start_own_work(int thread, Range own) {
   const PairGran* const contacts = verlet.contacts_in_team_;
   const int end = contacts ? contacts->contacts_of(thread).reach_of_lower() : own.end;
-  clear(verlet.atom, {own.begin, end});
+  clear_but_ahead(thread, {own.begin, end});
   cleared_[std::size_t(thread)].end = end;
 }
 
@@ -318,8 +329,19 @@ void Verlet::ClearForces::own_work(int thread, Range block) {
     return;
   int& cleared = cleared_[std::size_t(thread)].end;
   const int end = contacts->contacts_of(thread).reach_of_block(block);
-  clear(verlet.atom, {cleared, end});
+  clear_but_ahead(thread, {cleared, end});
   cleared = end;
+}
+
+/// Not what was cleared in the last step, whose lists are those of this one.
+void Verlet::ClearForces::clear_but_ahead(int thread, Range range) const {
+  if (!verlet.cleared_ahead_ || !verlet.contacts_in_team_) {
+    clear(verlet.atom, range);
+    return;
+  }
+  const Range ahead = verlet.contacts_in_team_->contacts_of(thread).unseen;
+  clear(verlet.atom, {range.begin, std::min(range.end, ahead.begin)});
+  clear(verlet.atom, {std::max(range.begin, ahead.end), range.end});
 }
 
 bool Verlet::MoveAhead::begin_own_work(int /*eflag*/, int /*vflag*/) {
@@ -331,9 +353,12 @@ bool Verlet::MoveAhead::begin_own_work(int /*eflag*/, int /*vflag*/) {
 void Verlet::MoveAhead::own_work(int thread, Range block) {
   const Range unseen = verlet.contacts_in_team_->contacts_of(thread).unseen;
   const Range moved{std::max(block.begin, unseen.begin), std::min(block.end, unseen.end)};
-  if (moved.size() > 0)
-    for (FixNveSphere* fix : verlet.may_owe_)
-      fix->move_ahead(thread, moved);
+  if (moved.size() <= 0)
+    return;
+  for (FixNveSphere* fix : verlet.may_owe_)
+    fix->move_ahead(thread, moved);
+  if (verlet.may_clear_ahead_)
+    clear(verlet.atom, moved);
 }
 
 void Verlet::finish_team() {
@@ -387,9 +412,11 @@ void Verlet::compute_forces() {
           fix.end_time_recording();
       });
     }
-  if (owed_ && may_move_ahead_ && contacts_in_team_ && !team_.looks_back())
+  const bool ahead = owed_ && may_move_ahead_ && contacts_in_team_ && !team_.looks_back();
+  if (ahead)
     add_part(&move_ahead_, times.integration, [] {});
   finish_team();
+  cleared_ahead_ = ahead && may_clear_ahead_;
   timer->array[TIME_PAIR] += times.contacts - contacts_before;
   timer->stamp();
 }

@@ -44,6 +44,7 @@ private:
   bool set_up_ = false;                // setup() was called since the last run
   std::vector<FixNveSphere*> may_owe_; // in this run; empty: nobody may
   bool may_move_ahead_ = false;        // in this run: those that owe, before the step is over
+  bool may_clear_ahead_ = false;       // in this run: the forces on them, too
   bool owed_ = false;                  // final_integrate() of this step
   std::vector<const RareLook*> rare_looks_;
   bool fixes_before_forces_look_at_none_ = false;
@@ -51,6 +52,7 @@ private:
   WorkLoad load_; // sums over the steps of a run
   ForceTeam team_;
   const PairGran* contacts_in_team_ = nullptr; // null: they are not, or are done
+  bool cleared_ahead_ = false; // forces on what no other thread sees, when it moved ahead
 
   /// Takes the forces of the last step off, where contacts are in the team no earlier than they
   /// are added to: they are then written once while they are in the cache.
@@ -62,14 +64,15 @@ private:
     void own_work(int thread, Range block) override;
 
   private:
+    void clear_but_ahead(int thread, Range range) const;
     struct alignas(64) Cleared {
       int end;
     };
     std::vector<Cleared> cleared_; // of each thread
   } clear_{*this};
 
-  /// Moves particles on to the next step as soon as the forces on them are complete, unless another
-  /// thread may still look at them: these move in initial_integrate().
+  /// Moves particles on to the next step as soon as the forces on them are complete, and clears
+  /// these, unless another thread may still look at them: these move in initial_integrate().
   struct MoveAhead final : OwnWork {
     explicit MoveAhead(const Verlet& all) : verlet(all) {}
     const Verlet& verlet;
