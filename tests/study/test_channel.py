@@ -59,8 +59,10 @@ class Channel(unittest.TestCase):
 
         shutil.rmtree(next(iter(before)).parent.parent)
         self.assertEqual(self.study("--error", "0.05").returncode, 0)
-        self.assertEqual(set(self.runs()), set(before), "only what is missing")
-        self.assertEqual(sum(time != before[path] for path, time in self.runs().items()), 1)
+        # A run done again has another cost, by which another combination may be tried.
+        now = self.runs()
+        self.assertEqual([now.get(path) == time for path, time in before.items()].count(False), 1, "what is missing")
+        self.assertLessEqual(set(before), set(now))
 
         page = (self.case / "results/report.html").read_text()
         self.assertEqual(page.count("<svg"), 2)
