@@ -22,7 +22,7 @@ HeatTransfer::HeatTransfer(const CouplingOptions& options, const cfd::GasCase& g
       at_particles_(at_particles), charges_(charges),
       nusselt_(NusseltLaws::make("nusselt", options.nusselt)),
       particles_a_parcel_(std::pow(options.coarse_graining, 3)) {
-  if (!on())
+  if (!charges.heat())
     return;
   if (gas_case.energy->conductivity == 0 && options.heat_transfer_coefficient == 0)
     throw ConfigError("[energy] conductivity: must be above 0, for Nusselt numbers count in it; "
@@ -32,7 +32,7 @@ HeatTransfer::HeatTransfer(const CouplingOptions& options, const cfd::GasCase& g
 }
 
 void HeatTransfer::check(const ParticleView& view) const {
-  const bool without = on() && view.heat.size() != view.size();
+  const bool without = charges_.heat() && view.heat.size() != view.size();
   throw_together<ConfigError>(
       gas_.mesh().comm,
       without ? "[energy]: the particles have no temperature that the gas could change" : "");

@@ -20,8 +20,6 @@ public:
                const cfd::GasSolver& gas, GridTransfer& transfer,
                const GasAtParticles& at_particles, Charges& charges);
 
-  /// Whether there is any.
-  [[nodiscard]] bool on() const { return gas_case_.energy.has_value(); }
   /// Throws on all ranks alike where the gas has a temperature and particles have none. Collective.
   void check(const ParticleView& view) const;
 
