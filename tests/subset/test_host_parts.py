@@ -154,6 +154,29 @@ fix             ins all insert/pack seed 49979687 distributiontemplate all inser
         self.assertGreater(thermo_rows(ours)[-1][1], 150)
         self.compare_dumps(limit=1e-8)  # two runs of the stock program on 1 and 2 ranks are as far apart
 
+    def test_types_that_change(self):
+        """All of type 2, of two in the tables; then commands between runs, and insertion, bring in type 1."""
+        all_of_type_2 = "set group all type 2\n"
+        floor = f"fix floor all wall/gran {MODEL} primitive type 1 zplane 0.0\n"
+        text = script("PROGRAM.txt", MODEL, boundary="p p f", more="group some id 10:60", runs=(40,), step=1e-5)
+        text = text.replace("thermo_style", all_of_type_2 + floor + "thermo_style", 1)
+        text = text.replace("dump_modify     d sort id", "dump_modify     d first no sort id")
+        text += "set group some type 1\nrun 40 pre no\n" + all_of_type_2 + "run 20 pre no\n"
+        text += """
+fix             one all particletemplate/sphere 15485863 atom_type 1 density constant 2000 radius constant 0.0008
+fix             all all particledistribution/discrete 32452843 1 one 1.0
+region          above block 0.001 0.009 0.001 0.009 0.0105 0.014 units box
+fix             ins all insert/pack seed 49979687 distributiontemplate all insert_every once start 125 overlapcheck yes &
+                vel constant 0 0 -3 region above particles_in_region 25
+run             100
+"""
+        box = dense(cells=5).splitlines()
+        self.write("data.box", "\n".join("0 0.03 zlo zhi" if "zlo zhi" in line else line for line in box) + "\n")
+        stock, ours = self.run_both(text)
+        self.assertIn(BY_SUBSET, ours)
+        self.assertGreater(thermo_rows(ours)[-1][1], 140)
+        self.compare_dumps(limit=1e-8)  # as for insertion
+
     def test_growing_spheres(self):
         """They grow on the steps on which lists are built, after that: who touches by growing alone had
         parted, and has no memory."""

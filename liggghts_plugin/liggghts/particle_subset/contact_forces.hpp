@@ -22,7 +22,11 @@ public:
   ContactForces(const Particles& particles, ThreadContacts& contacts, const Constants* constants,
                 int types, double dt, const typename Heat::Source& heat)
       : p_(particles), contacts_(contacts), constants_(constants), types_(types), dt_(dt),
-        heat_(heat), own_(contacts.own), batch_constants_(constants[0]) {}
+        heat_(heat), own_(contacts.own), batch_constants_(of_pair(first_type(), first_type())) {
+    if constexpr (Heat::acts) // of the one type, or of any: lanes without a pair must have some
+      for (int k = 0; k < ContactBatch::capacity; ++k)
+        heat_.set_constants(k, first_type(), first_type());
+  }
 
   /// Along the lower rows, all of them.
   void add_lower() { add_rows<Side::lower>(contacts_.lower, own_); }
@@ -32,6 +36,12 @@ public:
 private:
   /// Which of a pair is the particle of the row: j of the lower rows, i of the upper.
   enum class Side { lower, upper };
+
+  /// The type of all particles, where one is known.
+  [[nodiscard]] int first_type() const { return std::max(p_.common_type, 1); }
+  [[nodiscard]] const Constants& of_pair(int type_i, int type_j) const {
+    return constants_[(type_i - 1) * types_ + type_j - 1];
+  }
 
   template <Side side> void add_rows(ContactRows& rows, Range particles) {
     int count = 0;
@@ -120,7 +130,7 @@ private:
   void part(const ContactRows& rows, int e, int i, int j) {
     if (!heat_.all_dissipated())
       return;
-    const auto& k = constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1];
+    const Constants& k = of_pair(p_.type[i], p_.type[j]);
     const double* history = &rows.history[std::size_t(e) * Law::history];
     heat_.add_left(i, j, p_.type, left_at_parting<Law>(k, p_, i, j, dt_, history) / dt_, own_);
   }
@@ -138,7 +148,7 @@ private:
       batch_.mass_i[k] = p_.mass[i];
       batch_.mass_j[k] = p_.mass[j];
       if constexpr (!one_material) {
-        batch_constants_.set(k, constants_[(p_.type[i] - 1) * types_ + p_.type[j] - 1]);
+        batch_constants_.set(k, of_pair(p_.type[i], p_.type[j]));
         if constexpr (Heat::acts)
           heat_.set_constants(k, p_.type[i], p_.type[j]);
       }

@@ -35,10 +35,7 @@ double* target(const HeatArrays& arrays) {
 template <HeatMade made>
 HeatBatch<made>::HeatBatch(const HeatOfContacts& heat)
     : law_(*heat.law), arrays_(heat.arrays), conducts_(law_.options().radius && !arrays_.kept.now),
-      to_(target(arrays_)) {
-  for (int k = 0; k < ContactBatch::capacity; ++k)
-    set_constants(k, law_.pair(1, 1));
-}
+      to_(target(arrays_)) {}
 
 /// The columns of friction and damping become what the options count of them.
 template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_groups) {

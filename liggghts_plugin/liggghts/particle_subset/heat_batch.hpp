@@ -40,7 +40,7 @@ public:
   HeatBatch(const HeatBatch&) = delete;
   HeatBatch& operator=(const HeatBatch&) = delete;
 
-  /// Before the forces: of one pair. Constants where there are several types.
+  /// Before the forces: of one pair; in advance of each lane, where all particles are of one type.
   void set_constants(int k, int type_i, int type_j) { set_constants(k, law_.pair(type_i, type_j)); }
   void gather(int k, int i, int j) {
     __builtin_prefetch(to_ + j, 1);

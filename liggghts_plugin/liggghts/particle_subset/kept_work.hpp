@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <algorithm>
-
 #include "contact_batch.hpp"
 #include "contact_heat.hpp"
 #include "subset.hpp"
@@ -21,12 +19,11 @@ public:
   using Source = HeatOfContacts;
 
   explicit KeptWork(const HeatOfContacts& heat)
-      : law_(*heat.law), energy_(heat.arrays.kept.friction), dt_(heat.arrays.kept.dt) {
-    std::fill_n(share_, ContactBatch::capacity, law_.pair(1, 1).share);
-  }
+      : law_(*heat.law), energy_(heat.arrays.kept.friction), dt_(heat.arrays.kept.dt) {}
   KeptWork(const KeptWork&) = delete;
   KeptWork& operator=(const KeptWork&) = delete;
 
+  /// Of one pair; in advance of each lane, where all particles are of one type.
   void set_constants(int k, int type_i, int type_j) { share_[k] = law_.pair(type_i, type_j).share; }
   void gather(int, int, int j) { __builtin_prefetch(energy_ + j, 1); }
   template <class Law> void set(int k, const ContactForce& f) {

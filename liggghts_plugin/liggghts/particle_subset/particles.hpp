@@ -18,6 +18,7 @@ struct Particles {
   const int* type = nullptr; ///< from 1 on
   const int* tag = nullptr;  ///< the same for a particle and its ghosts
   const int* groups = nullptr;
+  int common_type = 0;   ///< of all of them; 0: there are several, or nobody has looked
   int frozen_group = 0;  ///< bit of the particles that count as of infinite mass, or 0
   Vec3* force = nullptr; ///< of owned particles: added to
   Vec3* torque = nullptr;
