@@ -297,6 +297,19 @@ particle_subset::Resistances FixHeat::resistances() {
   return found;
 }
 
+/// Of what resists motion, half a kick makes heat.
+bool FixHeat::looks_at_forces() const {
+  const auto& contacts = options_.contacts;
+  if (contacts.damping || contacts.friction == particle_subset::FrictionHeat::off)
+    return contacts.damping;
+  const auto is_rough_wall = [](const Fix* fix) {
+    const auto* wall = dynamic_cast<const particle_subset::FixWallGran*>(fix);
+    return wall && wall->rubs();
+  };
+  return (subsets_ && subsets_->rubs()) ||
+         std::any_of(modify->fix, modify->fix + modify->nfix, is_rough_wall);
+}
+
 /// What is received of each kind: it costs more than the sum. Where it can be seen, in the last
 /// step of temperature before or at output, and in the first and last of a run.
 bool FixHeat::wants_details() const {
@@ -331,14 +344,17 @@ void FixHeat::pre_force(int) {
     temperature_->do_forward_comm();
   if (!touches()) // else the contacts clear it
     std::fill_n(heat_flux_->vector_atom, atom->nlocal, 0.0);
-  if (const particle_subset::HeatShown shown = this->shown(); shown.wanted()) {
-    std::fill_n(shown.contacts, atom->nlocal, ContactHeatRates{});
-    std::fill_n(shown.details, atom->nlocal, HeatDetails{});
-    if (shown.walls)
-      std::fill_n(shown.walls, atom->nlocal, WallHeatRates{});
-    if (shown.near)
-      std::fill_n(shown.near, atom->nlocal, NearHeatRates{});
-  }
+  if (const particle_subset::HeatShown shown = this->shown(); shown.wanted())
+    particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
+      const auto clear = [range](auto* rows) {
+        if (rows)
+          std::fill(rows + range.begin, rows + range.end, std::remove_pointer_t<decltype(rows)>{});
+      };
+      clear(shown.contacts);
+      clear(shown.details);
+      clear(shown.walls);
+      clear(shown.near);
+    });
   if (pair_)
     conduct_by_shape();
 }
@@ -519,8 +535,14 @@ void FixHeat::step(coupling::HeatState* gas) {
 void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles) const {
   if (!details_)
     return;
-  refuse_long_step(conduction_number(shown(), particles, materials_.capacity, step_of_temperature(),
-                                     {.begin = 0, .end = atom->nlocal}));
+  double largest = 0;
+  particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
+    const double number = conduction_number(shown(), particles, materials_.capacity,
+                                            step_of_temperature(), range);
+#pragma omp critical(granflux_conduction_number)
+    largest = std::max(largest, number);
+  });
+  refuse_long_step(largest);
 }
 
 driver::WarmParticles FixHeat::particles() const {

@@ -58,6 +58,7 @@ public:
   [[nodiscard]] bool looks_at(long step) const override {
     return (options_.near.any() && step % options_.every == 0) || looks_at_scene(step);
   }
+  [[nodiscard]] bool looks_at_forces() const override;
 
   void describe(coupling::SceneState& scene) override;
 

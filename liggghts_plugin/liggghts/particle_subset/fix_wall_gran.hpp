@@ -44,6 +44,8 @@ public:
   /// From here on, until the next init(), contacts with this wall make heat too. Returns what
   /// stands against that with this law, or an empty text.
   [[nodiscard]] std::string set_heat(HeatPort& heat, const ContactHeat& law);
+  /// Whether what resists motion there by speed is noted: it makes heat in half a kick, too.
+  [[nodiscard]] bool rubs() const { return kernel_suits_ && kernel_->rubs(); }
 
   /// Those that it has: of the primitive, or of meshes [K].
   [[nodiscard]] std::vector<double> temperatures() const;

@@ -10,6 +10,9 @@ class RareLook {
 public:
   virtual ~RareLook() = default;
   [[nodiscard]] virtual bool looks_at(long step) const = 0;
+  /// Whether it looks at forces in any step of a run, those included in which it does not look at
+  /// motion: they must then stay until it has been called.
+  [[nodiscard]] virtual bool looks_at_forces() const { return true; }
 };
 
 } // namespace granflux::particle_subset

@@ -71,11 +71,15 @@ bool look_at_no_forces(const LAMMPS_NS::Modify& modify) {
   return true;
 }
 
-/// No fix is called between forces and motion but those that move meshes: heat looks at forces.
+/// No fix is called between forces and motion that looks at forces.
 bool forces_are_for_motion_alone(const LAMMPS_NS::Modify& modify) {
-  for (int i = 0; i < modify.nfix; ++i)
-    if ((modify.fmask[i] & PRE_FINAL_INTEGRATE) && !moves_meshes_only(*modify.fix[i]))
+  for (int i = 0; i < modify.nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *modify.fix[i];
+    const auto* rare = dynamic_cast<const RareLook*>(&fix);
+    if ((modify.fmask[i] & PRE_FINAL_INTEGRATE) && !moves_meshes_only(fix) &&
+        (!rare || rare->looks_at_forces()))
       return false;
+  }
   return true;
 }
 

@@ -20,6 +20,7 @@ namespace {
 template <class Law> class WallKernelOf final : public WallKernel {
 public:
   [[nodiscard]] int history_size() const override { return Law::history; }
+  [[nodiscard]] bool rubs() const override { return Law::rubs; }
 
   void read(const Material& material, int types) override {
     types_ = types;

@@ -29,6 +29,8 @@ public:
   virtual ~WallKernel() = default;
   /// Doubles that a contact remembers.
   [[nodiscard]] virtual int history_size() const = 0;
+  /// Whether friction resists by speed, not by a slider.
+  [[nodiscard]] virtual bool rubs() const = 0;
   /// The constants of `types` types with each other: before a run.
   virtual void read(const Material& material, int types) = 0;
   /// Adds forces and torques to the particles, in the order of `touches`.
