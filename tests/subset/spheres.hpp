@@ -92,7 +92,10 @@ public:
     count_.resize(n), partner_.resize(n), history_.resize(n);
     lists_.build(s.view(), skin, threads_, kernel_->history_size(), {}, kept(), at_rest);
   }
-  void store(Spheres& s) { lists_.store(s.view(), kept()); }
+  void store(Spheres& s, bool one_sided = false) {
+    one_sided_ = one_sided;
+    lists_.store(s.view(), kept());
+  }
 
   void forces(Spheres& s, double dt) {
     s.force.assign(s.force.size(), {});
@@ -128,7 +131,7 @@ public:
     return lists_;
   }
   [[nodiscard]] PartnerHistory kept() {
-    return {count_.data(), partner_.data(), history_.data()};
+    return {count_.data(), partner_.data(), history_.data(), one_sided_};
   }
 
 private:
@@ -138,6 +141,7 @@ private:
   std::vector<int> count_;
   std::vector<int*> partner_;
   std::vector<double*> history_;
+  bool one_sided_ = false;
 };
 
 } // namespace granflux::particle_subset::test

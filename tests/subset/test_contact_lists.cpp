@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The GranFlux developers
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -190,6 +191,39 @@ TEST(ContactLists, PartnersRememberOppositeSigns) {
       ++contacts_found;
     }
   EXPECT_GT(contacts_found, 100);
+}
+
+/// Flags and histories of all rows, after particles have been swapped in pairs that lie `distance`
+/// numbers apart.
+std::vector<double> remembered(int threads, bool one_sided, int distance) {
+  Spheres s = heap(6, 1.9e-3);
+  Contacts contacts(all_laws, two_types(), 2, threads);
+  contacts.build(s, skin);
+  contacts.forces(s, dt);
+  contacts.store(s, one_sided);
+  const PartnerHistory kept = contacts.kept();
+  const auto swap_all = [](int a, int b, auto*... of) { (std::swap(of[a], of[b]), ...); };
+  for (int p = 0; distance > 0 && p + distance < s.count(); p += distance + 3)
+    swap_all(p, p + distance, s.position.data(), s.velocity.data(), s.spin.data(), s.radius.data(),
+             s.mass.data(), s.type.data(), s.tag.data(), kept.count, kept.partner, kept.history);
+  contacts.build(s, skin);
+  std::vector<double> all;
+  for (int thread = 0; thread < threads; ++thread)
+    for (const ContactRows* rows :
+         {&contacts.lists().of(thread).lower, &contacts.lists().of(thread).upper}) {
+      all.insert(all.end(), rows->flags.begin(), rows->flags.end());
+      all.insert(all.end(), rows->history.begin(), rows->history.end());
+    }
+  return all;
+}
+
+TEST(ContactLists, OneSideRemembersAsMuchAsBoth) {
+  for (const int threads : {1, 3})
+    for (const int distance : {0, 1, 7, 100}) {
+      const std::vector<double> both = remembered(threads, false, distance);
+      EXPECT_GT(std::ranges::count_if(both, [](double h) { return h != 0; }), 2000);
+      EXPECT_EQ(remembered(threads, true, distance), both) << threads << ' ' << distance;
+    }
 }
 
 TEST(ContactLists, MirrorFollowsTheUpperRows) {

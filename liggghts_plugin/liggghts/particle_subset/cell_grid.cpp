@@ -4,9 +4,9 @@
 #include "cell_grid.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <omp.h>
 
@@ -23,34 +23,7 @@ constexpr double most_cells_per_particle = 4;
 /// Of a cell without particles.
 constexpr int above_all = std::numeric_limits<int>::max(), below_all = -1;
 
-/// Whole cells from the origin; not-a-number goes to the first.
-int whole(double cells) {
-  return cells > 0 ? int(cells) : 0;
-}
-
 } // namespace
-
-int CellGrid::cell_of(const Vec3& place) const {
-  int cell = 0;
-  for (int d = 0; d < 3; ++d)
-    cell += stride_[d] *
-            (1 + std::min(whole((place[d] - origin_[d]) * inverse_size_[d]), cells_[d] - 3));
-  return cell;
-}
-
-std::array<CellGrid::Run, 9> CellGrid::around(const Vec3& place) const {
-  std::array<Run, 9> runs;
-  const int cell = cell_of(place);
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const int middle =
-        cell + (int(r / 3) - 1) * stride_of_layers_ + (int(r % 3) - 1) * stride_of_rows_;
-    const int* const start = start_.data() + middle;
-    const Numbers* const in = numbers_.data() + middle;
-    runs[r] = {start[-1], start[2], std::min({in[-1].least, in[0].least, in[1].least}),
-               std::max({in[-1].most, in[0].most, in[1].most})};
-  }
-  return runs;
-}
 
 void CellGrid::choose_cells(const Particles& particles, double reach, int threads) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -85,67 +58,91 @@ void CellGrid::choose_cells(const Particles& particles, double reach, int thread
   stride_[layers] = stride_of_layers_ = cells_[within] * cells_[rows];
 }
 
+CellGrid::Run CellGrid::run_around(int cell) const {
+  const int* const start = start_.data() + cell;
+  Run run{start[-1], start[2], above_all, below_all};
+  for (int c = -1; c <= 1; ++c)
+    if (start[c] < start[c + 1]) {
+      run.least = std::min(run.least, number_[std::size_t(start[c])]);
+      run.most = std::max(run.most, number_[std::size_t(start[c + 1]) - 1]);
+    }
+  return run;
+}
+
 void CellGrid::sort(const Particles& particles, double reach, int threads) {
-  if (particles.all == 0)
+  const auto all = std::size_t(particles.all);
+  for (std::vector<double>* column : {&x_, &y_, &z_, &radius_})
+    column->resize(all + lanes);
+  number_.resize(all + lanes);
+  cell_.resize(all);
+  longest_run_ = 0;
+  if (all == 0)
     return;
   choose_cells(particles, reach, threads);
   const int cells = cells_[0] * cells_[1] * cells_[2];
-  cell_.resize(std::size_t(particles.all));
-  number_.resize(std::size_t(particles.all));
-  entry_.resize(std::size_t(particles.all));
   start_.resize(std::size_t(cells) + 1);
-  filled_.resize(std::size_t(cells));
-  numbers_.resize(std::size_t(cells));
+  start_[0] = 0;
+  run_.resize(std::size_t(cells));
+  strays_.resize(std::size_t(threads));
   std::vector<int> before(std::size_t(threads) + 1);
+  int longest = 0;
 
-#pragma omp parallel num_threads(threads)
+  // Each cell is filled by one thread, in the order of the numbers. As far as particles are sorted
+  // by place they are that thread's own, else they are told of as strays.
+#pragma omp parallel num_threads(threads) reduction(max : longest)
   {
     const int thread = omp_get_thread_num();
     const int team = omp_get_num_threads();
     const Range mine = Subset(particles.all, team).of(thread);
     const Range my_cells = Subset(cells, team).of(thread);
-    std::fill(filled_.begin() + my_cells.begin, filled_.begin() + my_cells.end, 0);
-#pragma omp barrier
+    int* const next = start_.data() + 1; // where the next particle of a cell goes
+    std::vector<int>& strays = strays_[std::size_t(thread)];
+    strays.clear();
+    std::fill(next + my_cells.begin, next + my_cells.end, 0);
+    const auto each_in_my_cells = [&](auto visit) {
+      for (int t = 0; t < team; ++t)
+        if (t == thread) {
+          for (int p = mine.begin; p < mine.end; ++p)
+            if (my_cells.holds(cell_[std::size_t(p)]))
+              visit(p);
+        } else {
+          for (const int p : strays_[std::size_t(t)])
+            if (my_cells.holds(cell_[std::size_t(p)]))
+              visit(p);
+        }
+    };
     for (int p = mine.begin; p < mine.end; ++p) {
       const int c = cell_of(particles.position[p]);
       cell_[std::size_t(p)] = c;
-      std::atomic_ref(filled_[std::size_t(c)]).fetch_add(1, std::memory_order_relaxed);
+      if (!my_cells.holds(c))
+        strays.push_back(p);
     }
 #pragma omp barrier
+    each_in_my_cells([&](int p) { ++next[cell_[std::size_t(p)]]; });
     int sum = 0;
-    for (int c = my_cells.begin; c < my_cells.end; ++c) {
-      start_[std::size_t(c)] = sum;
-      sum += filled_[std::size_t(c)];
-    }
+    for (int c = my_cells.begin; c < my_cells.end; ++c)
+      sum += std::exchange(next[c], sum);
     before[std::size_t(thread) + 1] = sum;
 #pragma omp barrier
     int offset = 0;
     for (int t = 0; t <= thread; ++t)
       offset += before[std::size_t(t)];
     for (int c = my_cells.begin; c < my_cells.end; ++c)
-      start_[std::size_t(c)] += offset;
-    if (thread == team - 1)
-      start_[std::size_t(cells)] = particles.all;
+      next[c] += offset;
+    each_in_my_cells([&](int p) {
+      const auto k = std::size_t(next[cell_[std::size_t(p)]]++);
+      const Vec3& place = particles.position[p];
+      x_[k] = place.x, y_[k] = place.y, z_[k] = place.z;
+      radius_[k] = particles.radius[p];
+      number_[k] = p;
+    });
 #pragma omp barrier
-    for (int p = mine.begin; p < mine.end; ++p) {
-      const auto c = std::size_t(cell_[std::size_t(p)]);
-      const int left = std::atomic_ref(filled_[c]).fetch_sub(1, std::memory_order_relaxed);
-      number_[std::size_t(start_[c] + left - 1)] = p;
-    }
-#pragma omp barrier
-    for (int c = my_cells.begin; c < my_cells.end; ++c) {
-      const int begin = start_[std::size_t(c)], end = start_[std::size_t(c) + 1];
-      std::sort(number_.begin() + begin, number_.begin() + end);
-      numbers_[std::size_t(c)] =
-          begin < end ? Numbers{number_[std::size_t(begin)], number_[std::size_t(end) - 1]}
-                      : Numbers{above_all, below_all};
-      for (int k = begin; k < end; ++k) {
-        const int p = number_[std::size_t(k)];
-        const Vec3& x = particles.position[p];
-        entry_[std::size_t(k)] = {x.x, x.y, x.z, particles.radius[p]};
-      }
+    for (int c = std::max(my_cells.begin, 1); c < std::min(my_cells.end, cells - 1); ++c) {
+      run_[std::size_t(c)] = run_around(c);
+      longest = std::max(longest, run_[std::size_t(c)].end - run_[std::size_t(c)].begin);
     }
   }
+  longest_run_ = longest;
 }
 
 } // namespace granflux::particle_subset

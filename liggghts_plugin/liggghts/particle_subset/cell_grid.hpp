@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include <granflux/cfd/vec3.hpp>
@@ -22,42 +23,63 @@ public:
   /// `threads` threads.
   void sort(const Particles& particles, double reach, int threads);
 
-  /// What is needed of a particle to find partners, in sorted order.
-  struct Entry {
-    double x, y, z, radius;
-  };
-
   /// The places begin ... end - 1 in sorted order, and the least and the largest number in them.
   struct Run {
     int begin, end;
     int least, most;
   };
-  /// The particles in the cells around a place within the grid.
-  [[nodiscard]] std::array<Run, 9> around(const Vec3& place) const;
+  /// Calls visit(run, whether its middle cell is that of the place) for the particles in the cells
+  /// around a place within the grid.
+  template <class Visit> void for_each_run_around(const Vec3& place, Visit&& visit) const {
+    const Run* const middle = run_.data() + cell_of(place);
+    const auto layer = [&](const Run* of, auto in_own_layer) {
+      visit(of[-stride_of_rows_], std::false_type{});
+      visit(of[0], in_own_layer);
+      visit(of[stride_of_rows_], std::false_type{});
+    };
+    layer(middle - stride_of_layers_, std::false_type{});
+    layer(middle, std::true_type{});
+    layer(middle + stride_of_layers_, std::false_type{});
+  }
+  /// No particle has more of them around it.
+  [[nodiscard]] int most_around() const { return 9 * longest_run_; }
 
-  /// Of each place in sorted order.
-  [[nodiscard]] const Entry* entries() const { return entry_.data(); }
-  [[nodiscard]] const int* numbers() const { return number_.data(); }
+  /// What is needed of the particles to find partners, in sorted order, an array per number. Each
+  /// may be read `lanes` places beyond its end.
+  static constexpr int lanes = 8;
+  struct Columns {
+    const double *x, *y, *z, *radius;
+    const int* number;
+  };
+  [[nodiscard]] Columns columns() const {
+    return {x_.data(), y_.data(), z_.data(), radius_.data(), number_.data()};
+  }
 
 private:
-  [[nodiscard]] int cell_of(const Vec3& place) const;
+  [[nodiscard]] int cell_of(const Vec3& place) const {
+    int cell = 0;
+    for (int d = 0; d < 3; ++d)
+      cell += stride_[d] *
+              (1 + std::min(whole((place[d] - origin_[d]) * inverse_size_[d]), cells_[d] - 3));
+    return cell;
+  }
+  /// Whole cells from the origin; not-a-number goes to the first.
+  [[nodiscard]] static int whole(double cells) { return cells > 0 ? int(cells) : 0; }
   void choose_cells(const Particles& particles, double reach, int threads);
-
-  struct Numbers {
-    int least, most;
-  };
+  [[nodiscard]] Run run_around(int cell) const;
 
   int cells_[3] = {1, 1, 1}; // with one empty layer around those in use
   int stride_[3] = {1, 1, 1};
   int stride_of_rows_ = 1, stride_of_layers_ = 1; // 1 within a row
   Vec3 origin_;
   double inverse_size_[3] = {0, 0, 0};
-  std::vector<int> cell_;        // of each particle
-  std::vector<int> start_;       // of each cell in the sorted order, and the end
-  std::vector<int> filled_;      // particles of each cell not yet placed
-  std::vector<Numbers> numbers_; // in each cell
+  int longest_run_ = 0;
+  std::vector<int> cell_;                // of each particle
+  std::vector<std::vector<int>> strays_; // of each thread: particles in cells of other threads
+  std::vector<int> start_;               // of each cell in the sorted order, and the end
+  std::vector<Run> run_;                 // of each cell with those before and behind it
+  std::vector<double> x_, y_, z_, radius_;
   std::vector<int> number_;
-  std::vector<Entry> entry_;
 };
 
 } // namespace granflux::particle_subset

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "compress.hpp"
+
 namespace granflux::particle_subset {
 
 namespace {
@@ -20,39 +22,106 @@ bool apart(const Particles& particles, int i, int j, double margin) {
   return distance_squared(particles.position[i], particles.position[j]) >= reach * reach;
 }
 
-/// Restores what a pair remembers, if it touches now and did so before.
+/// Where in a row a partner is; `end` if it is not there. Eight at a time, as most rows are no
+/// longer and nobody could foresee where in them it is.
+int find_in_row(const std::vector<int>& partners, int begin, int end, int partner) {
+  constexpr int lanes = 8;
+  const int* const all = partners.data();
+  const int last_start = int(partners.size()) - lanes;
+  if (last_start < 0)
+    return int(std::find(all + begin, all + end, partner) - all);
+  for (int first = begin; first < end; first += lanes) {
+    const int start = std::min(first, last_start);
+    int place[lanes], found = -1;
+    for (int l = 0; l < lanes; ++l) {
+      const int e = start + l;
+      place[l] = (all[e] == partner) & (e >= begin) & (e < end) ? e : -1;
+    }
+    for (int l = 0; l < lanes; ++l)
+      found = std::max(found, place[l]);
+    if (found >= 0)
+      return found;
+  }
+  return end;
+}
+
+/// Restores what pairs remember that touch now and did so before.
 class HistoryLookup {
 public:
   HistoryLookup(const Particles& particles, const PartnerHistory& kept, int size)
       : particles_(particles), kept_(kept), size_(size) {}
 
-  /// Fills flags and history of all rows; the pair (lower number, higher number) of a row and a
-  /// partner is given by `ordered`. What touches no longer goes into `parted`.
-  template <class Ordered>
-  void restore(ContactRows& rows, int rows_count, Ordered ordered,
-               std::vector<PartedPair>& parted) const {
+  /// Nothing is remembered in `rows`.
+  void clear(ContactRows& rows) const {
     rows.flags.assign(rows.partner.size(), 0);
     rows.history.assign(rows.partner.size() * std::size_t(size_), 0.0);
-    if (size_ == 0)
-      return;
-    for (int row = 0; row < rows_count; ++row)
-      for (int e = rows.row_begin(row); e < rows.row_end(row); ++e) {
-        const auto [i, j] = ordered(row, rows.partner[std::size_t(e)]);
-        const double* found = find(i, j);
-        if (!found)
-          continue;
-        if (apart(particles_, i, j, 0)) {
-          parted.push_back({i, j, found});
-        } else {
-          rows.flags[std::size_t(e)] = 1;
-          std::copy_n(found, size_, &rows.history[std::size_t(e) * std::size_t(size_)]);
-        }
-      }
+  }
+
+  /// Clears the rows of `own` and restores what is remembered by one side, of partners that have
+  /// kept their numbers: in the order of memory. Returns whether all has found its place.
+  bool restore_by_number(ContactRows& upper, Range own, std::vector<PartedPair>& parted) const {
+    upper.flags.resize(upper.partner.size());
+    upper.history.resize(upper.partner.size() * std::size_t(size_));
+    bool all = true;
+    for_each_block(own, [&](Range block) { // while it is in the cache
+      const int first = upper.row_begin(block.begin - own.begin);
+      const int last = upper.row_begin(block.end - own.begin);
+      std::fill(upper.flags.begin() + first, upper.flags.begin() + last, 0);
+      std::fill(upper.history.begin() + std::ptrdiff_t(first) * size_,
+                upper.history.begin() + std::ptrdiff_t(last) * size_, 0.0);
+      for (int i = block.begin; i < block.end; ++i)
+        all &= restore_row(upper, own, i, parted);
+    });
+    return all;
+  }
+
+  /// For all pairs that remember nothing; the pair (lower number, higher number) of a particle and
+  /// its partner is given by `ordered`.
+  template <class Ordered>
+  void restore_by_tag(ContactRows& rows, Ordered ordered, std::vector<PartedPair>& parted) const {
+    for (int e = 0; e < int(rows.partner.size()); ++e) {
+      if (rows.flags[std::size_t(e)])
+        continue;
+      const auto [i, j] = ordered(rows.particle[std::size_t(e)], rows.partner[std::size_t(e)]);
+      if (const double* found = find(i, j))
+        restore(rows, e, {i, j, found}, 1, parted);
+      else if (const double* other = kept_.one_sided ? find(j, i) : nullptr)
+        restore(rows, e, {j, i, other}, -1, parted);
+    }
   }
 
 private:
+  bool restore_row(ContactRows& upper, Range own, int i, std::vector<PartedPair>& parted) const {
+    const int count = size_ > 0 ? kept_.count[i] : 0;
+    const int begin = upper.row_begin(i - own.begin), end = upper.row_end(i - own.begin);
+    bool all = true;
+    for (int k = 0; k < count; ++k) {
+      const int tag = kept_.partner[i][k], j = kept_.partner[i][count + k];
+      const int e = j < particles_.all && particles_.tag[j] == tag
+                        ? find_in_row(upper.partner, begin, end, j)
+                        : end;
+      if (e == end)
+        all = false;
+      else
+        restore(upper, e, {i, j, kept_.history[i] + std::ptrdiff_t(k) * size_}, 1, parted);
+    }
+    return all;
+  }
+
+  /// `sign`: of what is remembered, in the eyes of the entry.
+  void restore(ContactRows& rows, int e, const PartedPair& pair, double sign,
+               std::vector<PartedPair>& parted) const {
+    if (apart(particles_, pair.i, pair.j, 0)) {
+      parted.push_back(pair);
+      return;
+    }
+    rows.flags[std::size_t(e)] = 1;
+    for (int d = 0; d < size_; ++d)
+      rows.history[std::size_t(e) * std::size_t(size_) + std::size_t(d)] = sign * pair.history[d];
+  }
+
   [[nodiscard]] const double* find(int i, int j) const {
-    const int count = kept_.count[i];
+    const int count = size_ > 0 ? kept_.count[i] : 0;
     if (count == 0)
       return nullptr;
     const int* tags = kept_.partner[i];
@@ -64,6 +133,62 @@ private:
   const PartnerHistory& kept_;
   int size_;
 };
+
+/// The particle whose partners are looked for.
+struct Seeker {
+  int number;
+  Vec3 place;
+  double reach; ///< radius and skin
+};
+
+/// Writes those of a run that are near and of higher number to `found` and returns how many there
+/// are; up to CellGrid::lanes numbers behind them are overwritten. Without branches, which nobody
+/// could foresee. `coincide`: becomes not 0 where one is at the very same place, if that is asked.
+template <bool ask_coincide>
+int find_above(const CellGrid::Columns& all, const CellGrid::Run& run, const Seeker& seeker,
+               int* found, int (&coincide)[CellGrid::lanes]) {
+  constexpr int lanes = CellGrid::lanes;
+  int count = 0;
+  for (int first = run.begin; first < run.end; first += lanes) {
+    int near[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      const int k = first + l;
+      const double limit = seeker.reach + all.radius[k];
+      const double apart = distance_squared(seeker.place, {all.x[k], all.y[k], all.z[k]});
+      near[l] = (apart <= limit * limit) & (all.number[k] > seeker.number) & (k < run.end);
+      if constexpr (ask_coincide)
+        coincide[l] |= near[l] & (apart == 0);
+    }
+    count += compress(all.number + first, near, found + count);
+  }
+  return count;
+}
+
+/// The same of numbers below `end`, of which there are few.
+int find_below(const CellGrid::Columns& all, const CellGrid::Run& run, const Seeker& seeker,
+               int end, int* found) {
+  int count = 0;
+  for (int k = run.begin; k < run.end; ++k) {
+    const double limit = seeker.reach + all.radius[k];
+    if (all.number[k] < end &&
+        distance_squared(seeker.place, {all.x[k], all.y[k], all.z[k]}) <= limit * limit)
+      found[count++] = all.number[k];
+  }
+  return count;
+}
+
+/// Writes `value` at least `count` times, in whole lanes.
+void fill_lanes(int* values, int count, int value) {
+  for (int first = 0; first < count; first += CellGrid::lanes)
+    for (int l = 0; l < CellGrid::lanes; ++l)
+      values[first + l] = value;
+}
+
+/// Room for `count` more behind the first `used`; what it has held is kept in use.
+void make_room(std::vector<int>& values, int used, int count) {
+  if (const auto needed = std::size_t(used + count); values.size() < needed)
+    values.resize(needed + needed / 4);
+}
 
 double largest_radius(const Particles& particles, int threads) {
   double largest = 0;
@@ -81,14 +206,36 @@ void ContactLists::build(const Particles& particles, double skin, int threads, i
   history_size_ = history_size;
   threads_.resize(std::size_t(threads));
   cells_.sort(particles, 2 * largest_radius(particles, threads) + skin, threads);
+  const HistoryLookup lookup(particles, kept, history_size_);
+  const bool by_number = kept.one_sided;
+  bool found_all = by_number;
   // Each thread fills, and so first touches, its own lists.
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
+#pragma omp parallel for num_threads(threads) schedule(static, 1) reduction(&& : found_all)
   for (int thread = 0; thread < threads; ++thread) {
     ThreadContacts& mine = of(thread);
     mine.own = subset_.of(thread);
-    build_rows(particles, skin, excluded, kept, at_rest, mine);
+    mine.parted.clear();
+    find_rows(particles, skin, excluded, mine);
+    for (ContactRows* rows : {&mine.lower, &mine.upper})
+      put_resting_last(particles, mine.own, at_rest, *rows);
     find_reach(mine);
     find_unseen(particles.owned, mine);
+    lookup.clear(mine.lower);
+    if (by_number)
+      found_all = lookup.restore_by_number(mine.upper, mine.own, mine.parted) && found_all;
+    else
+      lookup.clear(mine.upper);
+  }
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (int thread = 0; thread < threads; ++thread) {
+    ThreadContacts& mine = of(thread);
+    if (!found_all) {
+      mine.parted.clear(); // they are found once more
+      lookup.restore_by_tag(
+          mine.upper, [](int p, int partner) { return std::pair(p, partner); }, mine.parted);
+    }
+    lookup.restore_by_tag(
+        mine.lower, [](int p, int partner) { return std::pair(partner, p); }, mine.parted);
   }
 }
 
@@ -124,40 +271,6 @@ void ContactLists::find_unseen(int owned, ThreadContacts& contacts) {
   contacts.unseen = {begin, std::max(begin, end)};
 }
 
-/// The particles near to i that are above it or below its thread's range, in the order of the
-/// cells.
-ContactLists::Found ContactLists::find_partners(const Particles& particles, double skin, Range own,
-                                                int i, std::vector<int>& found) const {
-  const Vec3 x = particles.position[i];
-  const double reach = particles.radius[i] + skin;
-  const auto runs = cells_.around(x);
-  std::size_t most = 0;
-  for (const CellGrid::Run run : runs)
-    most += std::size_t(run.end - run.begin);
-  if (found.size() < most)
-    found.resize(2 * most);
-
-  const CellGrid::Entry* const entries = cells_.entries();
-  const int* const numbers = cells_.numbers();
-  int* const list = found.data();
-  int count = 0, here = 0;
-  for (const CellGrid::Run run : runs) {
-    if (run.most < i && run.least >= own.begin)
-      continue; // they have found this one
-    for (int k = run.begin; k < run.end; ++k) {
-      const CellGrid::Entry other = entries[k];
-      const int p = numbers[k];
-      const double limit = reach + other.radius;
-      const double apart = distance_squared(x, {other.x, other.y, other.z});
-      const bool near = apart <= limit * limit;
-      list[count] = p; // overwritten by the next unless it is one
-      count += near & ((p > i) | (p < own.begin));
-      here += apart == 0;
-    }
-  }
-  return {count, here};
-}
-
 void ContactLists::find_coincident(const Particles& particles, Range own, int row,
                                    ThreadContacts& contacts) {
   const int i = own.begin + row;
@@ -189,45 +302,60 @@ void ContactLists::put_resting_last(const Particles& particles, Range own, int a
   }
 }
 
-void ContactLists::build_rows(const Particles& particles, double skin, const Excluded& excluded,
-                              const PartnerHistory& kept, int at_rest,
-                              ThreadContacts& contacts) const {
+/// The partners of each particle that are above it or below its thread's range, the former in the
+/// order of the cells.
+void ContactLists::find_rows(const Particles& particles, double skin, const Excluded& excluded,
+                             ThreadContacts& contacts) const {
   const Range own = contacts.own;
   ContactRows& lower = contacts.lower;
   ContactRows& upper = contacts.upper;
-  for (ContactRows* rows : {&lower, &upper}) {
-    rows->particle.clear();
-    rows->partner.clear();
-    rows->begin.assign(1, 0);
-    rows->begin.reserve(std::size_t(own.size()) + 1);
-  }
   contacts.coincident.clear();
-  contacts.parted.clear();
-  std::vector<int> found;
-  for (int i = own.begin; i < own.end; ++i) {
-    const auto [partners, here] = find_partners(particles, skin, own, i, found);
-    const auto count = std::ptrdiff_t(partners);
-    const auto lower_begin = std::ptrdiff_t(lower.partner.size());
-    for (auto p = found.begin(); p != found.begin() + count; ++p)
-      if (!excluded || !excluded(std::min(i, *p), std::max(i, *p)))
-        (*p > i ? upper : lower).partner.push_back(*p);
-    std::sort(lower.partner.begin() + lower_begin, lower.partner.end());
-    for (ContactRows* rows : {&lower, &upper}) {
-      rows->begin.push_back(int(rows->partner.size()));
-      rows->particle.resize(rows->partner.size(), i);
-    }
-    if (here > 1)
-      find_coincident(particles, own, i - own.begin, contacts);
+  for (ContactRows* rows : {&lower, &upper}) {
+    rows->begin.resize(std::size_t(own.size()) + 1);
+    rows->begin[0] = 0;
   }
-  for (ContactRows* rows : {&lower, &upper})
-    put_resting_last(particles, own, at_rest, *rows);
-  const HistoryLookup lookup(particles, kept, history_size_);
-  lookup.restore(
-      lower, own.size(), [&](int row, int p) { return std::pair(p, own.begin + row); },
-      contacts.parted);
-  lookup.restore(
-      upper, own.size(), [&](int row, int p) { return std::pair(own.begin + row, p); },
-      contacts.parted);
+  const CellGrid::Columns all = cells_.columns();
+  const int room = cells_.most_around() + CellGrid::lanes;
+  int lower_end = 0, upper_end = 0;
+  for (int i = own.begin; i < own.end; ++i) {
+    for (std::vector<int>* of : {&lower.partner, &lower.particle})
+      make_room(*of, lower_end, room);
+    for (std::vector<int>* of : {&upper.partner, &upper.particle})
+      make_room(*of, upper_end, room);
+    int* const lower_row = lower.partner.data() + lower_end;
+    int* const upper_row = upper.partner.data() + upper_end;
+    int below = 0, above = 0;
+    int coincide[CellGrid::lanes] = {};
+    const Seeker seeker{i, particles.position[i], particles.radius[i] + skin};
+    cells_.for_each_run_around(seeker.place, [&](const CellGrid::Run& run, auto own_cell) {
+      if (run.most > i)
+        above += find_above<own_cell.value>(all, run, seeker, upper_row + above, coincide);
+      if (run.least < own.begin)
+        below += find_below(all, run, seeker, own.begin, lower_row + below);
+    });
+    if (excluded) {
+      const auto left = [&](int* row, int count) {
+        return int(std::remove_if(row, row + count,
+                                  [&](int p) { return excluded(std::min(i, p), std::max(i, p)); }) -
+                   row);
+      };
+      below = left(lower_row, below);
+      above = left(upper_row, above);
+    }
+    if (below > 0)
+      std::sort(lower_row, lower_row + below);
+    const auto row = std::size_t(i - own.begin);
+    fill_lanes(lower.particle.data() + lower_end, below, i);
+    fill_lanes(upper.particle.data() + upper_end, above, i);
+    lower.begin[row + 1] = lower_end += below;
+    upper.begin[row + 1] = upper_end += above;
+    if (below > 0 || std::ranges::any_of(coincide, [](int c) { return c != 0; }))
+      find_coincident(particles, own, int(row), contacts);
+  }
+  for (std::vector<int>* of : {&lower.partner, &lower.particle})
+    of->resize(std::size_t(lower_end));
+  for (std::vector<int>* of : {&upper.partner, &upper.particle})
+    of->resize(std::size_t(upper_end));
 }
 
 void ContactLists::part_far(const Particles& particles, double margin) {
@@ -252,52 +380,97 @@ void ContactLists::part_far(const Particles& particles, double margin) {
   }
 }
 
-void ContactLists::store(const Particles& particles, PartnerHistory kept) {
+int ContactLists::store(const Particles& particles, PartnerHistory kept) {
   kept_.resize(threads_.size());
-  const auto size = std::size_t(history_size_);
-#pragma omp parallel for num_threads(subset_.threads()) schedule(static, 1)
+  int most = 0;
+#pragma omp parallel for num_threads(subset_.threads()) schedule(static, 1) reduction(max : most)
   for (int thread = 0; thread < subset_.threads(); ++thread) {
     const ThreadContacts& contacts = of(thread);
-    const Range own = contacts.own;
     Kept& mine = kept_[std::size_t(thread)];
-
-    // Calls visit(particle, its partner, entry, sign) for every side of a contact that is ours.
-    const auto each = [&](const ContactRows& rows, bool partners_come_first, auto visit) {
-      for (int row = 0; row < own.size(); ++row)
-        for (int e = rows.row_begin(row); e < rows.row_end(row); ++e)
-          if (rows.flags[std::size_t(e)]) {
-            const int p = own.begin + row, other = rows.partner[std::size_t(e)];
-            visit(p, other, e, partners_come_first ? -1.0 : 1.0);
-            if (own.holds(other))
-              visit(other, p, e, -1.0);
-          }
-    };
-    const auto each_side = [&](auto visit) {
-      each(contacts.lower, true,
-           [&](int p, int other, int e, double sign) { visit(contacts.lower, p, other, e, sign); });
-      each(contacts.upper, false,
-           [&](int p, int other, int e, double sign) { visit(contacts.upper, p, other, e, sign); });
-    };
-
-    std::fill(kept.count + own.begin, kept.count + own.end, 0);
-    std::size_t total = 0;
-    each_side([&](const ContactRows&, int p, int, int, double) { ++kept.count[p], ++total; });
-    mine.partner.resize(total);
-    mine.history.resize(total * size);
-    std::size_t offset = 0;
-    for (int p = own.begin; p < own.end; ++p) {
-      kept.partner[p] = mine.partner.data() + offset;
-      kept.history[p] = mine.history.data() + offset * size;
-      offset += std::size_t(kept.count[p]);
-      kept.count[p] = 0;
-    }
-    each_side([&](const ContactRows& rows, int p, int other, int e, double sign) {
-      const auto k = std::size_t(kept.count[p]++);
-      kept.partner[p][k] = particles.tag[other];
-      for (std::size_t d = 0; d < size; ++d)
-        kept.history[p][k * size + d] = sign * rows.history[std::size_t(e) * size + d];
-    });
+    if (kept.one_sided)
+      store_one_side(particles, contacts, kept, mine);
+    else
+      store_both_sides(particles, contacts, kept, mine);
+    for (int p = contacts.own.begin; p < contacts.own.end; ++p)
+      most = std::max(most, kept.count[p]);
   }
+  return most;
+}
+
+/// Entry after entry: each is written to the next place, which is kept if the pair has touched.
+void ContactLists::store_one_side(const Particles& particles, const ThreadContacts& contacts,
+                                  const PartnerHistory& kept, Kept& mine) const {
+  const auto size = std::size_t(history_size_);
+  const ContactRows& rows = contacts.upper;
+  std::size_t total = 0;
+  for (const int flags : rows.flags)
+    total += flags != 0;
+  mine.partner.resize(2 * total);
+  mine.history.resize((total + 1) * size);
+  std::size_t stored = 0;
+  for (int p = contacts.own.begin; p < contacts.own.end; ++p) {
+    const int row = p - contacts.own.begin;
+    const std::size_t first = stored;
+    for (auto e = std::size_t(rows.row_begin(row)); e < std::size_t(rows.row_end(row)); ++e) {
+      for (std::size_t d = 0; d < size; ++d)
+        mine.history[stored * size + d] = rows.history[e * size + d];
+      stored += rows.flags[e] != 0;
+    }
+    const std::size_t count = stored - first;
+    int* const tags = mine.partner.data() + 2 * first;
+    std::size_t k = 0;
+    for (auto e = std::size_t(rows.row_begin(row)); e < std::size_t(rows.row_end(row)); ++e)
+      if (rows.flags[e]) {
+        tags[k] = particles.tag[rows.partner[e]];
+        tags[count + k++] = rows.partner[e];
+      }
+    kept.count[p] = int(count);
+    kept.partner[p] = tags;
+    kept.history[p] = mine.history.data() + first * size;
+  }
+}
+
+void ContactLists::store_both_sides(const Particles& particles, const ThreadContacts& contacts,
+                                    const PartnerHistory& kept, Kept& mine) const {
+  const auto size = std::size_t(history_size_);
+  const Range own = contacts.own;
+
+  // Calls visit(particle, its partner, entry, sign) for every side of a contact that is ours.
+  const auto each = [&](const ContactRows& rows, bool partners_come_first, auto visit) {
+    for (int row = 0; row < own.size(); ++row)
+      for (int e = rows.row_begin(row); e < rows.row_end(row); ++e)
+        if (rows.flags[std::size_t(e)]) {
+          const int p = own.begin + row, other = rows.partner[std::size_t(e)];
+          visit(p, other, e, partners_come_first ? -1.0 : 1.0);
+          if (own.holds(other))
+            visit(other, p, e, -1.0);
+        }
+  };
+  const auto each_side = [&](auto visit) {
+    each(contacts.lower, true,
+         [&](int p, int other, int e, double sign) { visit(contacts.lower, p, other, e, sign); });
+    each(contacts.upper, false,
+         [&](int p, int other, int e, double sign) { visit(contacts.upper, p, other, e, sign); });
+  };
+
+  std::fill(kept.count + own.begin, kept.count + own.end, 0);
+  std::size_t total = 0;
+  each_side([&](const ContactRows&, int p, int, int, double) { ++kept.count[p], ++total; });
+  mine.partner.resize(total);
+  mine.history.resize(total * size);
+  std::size_t offset = 0;
+  for (int p = own.begin; p < own.end; ++p) {
+    kept.partner[p] = mine.partner.data() + offset;
+    kept.history[p] = mine.history.data() + offset * size;
+    offset += std::size_t(kept.count[p]);
+    kept.count[p] = 0;
+  }
+  each_side([&](const ContactRows& rows, int p, int other, int e, double sign) {
+    const auto k = std::size_t(kept.count[p]++);
+    kept.partner[p][k] = particles.tag[other];
+    for (std::size_t d = 0; d < size; ++d)
+      kept.history[p][k * size + d] = sign * rows.history[std::size_t(e) * size + d];
+  });
 }
 
 void ContactLists::mirror_history() {

@@ -35,7 +35,7 @@ struct ContactRows {
   }
 };
 
-/// A pair that touched and no longer does, i < j, and what its contact remembered.
+/// A pair that touched and no longer does, and what its contact remembered, seen from i.
 struct PartedPair {
   int i, j;
   const double* history;
@@ -68,6 +68,10 @@ struct PartnerHistory {
   int* count = nullptr;       ///< partners of each particle
   int** partner = nullptr;    ///< their tags
   double** history = nullptr; ///< seen from the particle; the partner sees the opposite
+  /// Each contact is remembered by one of its particles, not by both: enough where no particle has
+  /// a ghost, neither here nor on another rank. Behind the tags of a particle's partners are then
+  /// the numbers that they had.
+  bool one_sided = false;
 };
 
 /// The pairs that can touch before the next build, per thread.
@@ -91,8 +95,9 @@ public:
   void part_far(const Particles& particles, double margin);
 
   /// The way back: what touched since the build, for each owned particle. The arrays that the
-  /// pointers in `kept` lead to are held here until the next call.
-  void store(const Particles& particles, PartnerHistory kept);
+  /// pointers in `kept` lead to are held here until the next call. Returns the most partners that
+  /// one particle remembers.
+  int store(const Particles& particles, PartnerHistory kept);
 
   /// After a step in which only the upper rows were advanced: the lower rows follow.
   void mirror_history();
@@ -105,25 +110,22 @@ public:
   [[nodiscard]] double memory() const;
 
 private:
-  void build_rows(const Particles& particles, double skin, const Excluded& excluded,
-                  const PartnerHistory& kept, int at_rest, ThreadContacts& contacts) const;
-  struct Found {
-    int partners = 0;
-    int here = 0; ///< of those looked at, at the very place of this one, itself among them
+  struct Kept {
+    std::vector<int> partner;
+    std::vector<double> history;
   };
-  Found find_partners(const Particles& particles, double skin, Range own, int i,
-                      std::vector<int>& found) const;
+  void store_one_side(const Particles& particles, const ThreadContacts& contacts,
+                      const PartnerHistory& kept, Kept& mine) const;
+  void store_both_sides(const Particles& particles, const ThreadContacts& contacts,
+                        const PartnerHistory& kept, Kept& mine) const;
+  void find_rows(const Particles& particles, double skin, const Excluded& excluded,
+                 ThreadContacts& contacts) const;
   static void find_coincident(const Particles& particles, Range own, int row,
                               ThreadContacts& contacts);
   static void find_reach(ThreadContacts& contacts);
   static void find_unseen(int owned, ThreadContacts& contacts);
   static void put_resting_last(const Particles& particles, Range own, int at_rest,
                                ContactRows& rows);
-
-  struct Kept {
-    std::vector<int> partner;
-    std::vector<double> history;
-  };
 
   Subset subset_{0, 1};
   int history_size_ = 0;

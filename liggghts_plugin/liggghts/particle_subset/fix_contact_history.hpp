@@ -16,8 +16,18 @@ public:
   FixContactHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       : LAMMPS_NS::FixContactHistory(lammps, narg, arg) {}
 
+  /// What is taken over here goes to files and other ranks as it is.
+  void setup_pre_exchange() override;
   void pre_exchange() override;
-  [[nodiscard]] PartnerHistory arrays() { return {npartner_, partner_, contacthistory_}; }
+  [[nodiscard]] PartnerHistory arrays() {
+    return {npartner_, partner_, contacthistory_, one_sided_};
+  }
+
+private:
+  void take_over(bool one_sided);
+  [[nodiscard]] bool one_side_will_do() const;
+
+  bool one_sided_ = false;
 };
 
 } // namespace granflux::particle_subset

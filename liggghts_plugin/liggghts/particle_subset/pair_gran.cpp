@@ -351,12 +351,12 @@ void PairGran::add_near_heat(const NearHeat& law, const HeatArrays& arrays) {
     law.add(all, lists_.of(thread), arrays, arrays.sums[thread], facing_);
 }
 
-void PairGran::store_history(PartnerHistory kept) {
+int PairGran::store_history(PartnerHistory kept) {
   if (heat_ && heat_->parted_heat()) {
     lists_.part_far(particles(), 0.5 * neighbor->skin);
     add_parted_heat();
   }
-  lists_.store(particles(), kept);
+  return lists_.store(particles(), kept);
 }
 
 /// What springs hold whose contacts have ended becomes heat.

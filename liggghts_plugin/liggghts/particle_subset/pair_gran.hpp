@@ -48,7 +48,8 @@ public:
   [[nodiscard]] bool holds_history() const { return by_subset_; }
   /// Whether friction resists by speed, not by a slider. Only by particle subset.
   [[nodiscard]] bool rubs() const { return kernel_->rubs(); }
-  void store_history(PartnerHistory kept);
+  /// Returns the most partners that one particle remembers.
+  int store_history(PartnerHistory kept);
 
   /// Normal force of one contact of types a and b, for what follows from the law once a run;
   /// nothing where the law, or an option of it, has no form by particle subset.
