@@ -61,20 +61,17 @@ void join_faces(const LevelBlock& fine, const std::array<Pairing, 3>& pairing, i
     const int above = I < to.cells[u(d)] ? pairing[u(d)].width(I, n) : 0;
     return float(below == 0 ? 1.0 / above : above == 0 ? 1.0 / below : over_distance(below, above));
   };
-#pragma omp parallel for collapse(2)                                                               \
-    schedule(static) if (from.interior() >= smallest_parallel_sweep)
-  for (int K = 0; K < faces[2]; ++K)
-    for (int J = 0; J < faces[1]; ++J) {
-      const auto [k_first, k_end] = range(2, K);
-      const auto [j_first, j_end] = range(1, J);
-      float* row = joined + to.at(0, J, K);
-      std::fill(row, row + faces[0], 0.0F);
-      for (int k = k_first; k < k_end; ++k)
-        for (int j = j_first; j < j_end; ++j)
-          add_faces(c + from.at(0, j, k), from.cells[0], pairing[0], d == 0, row, to.cells[0]);
-      for (int I = 0; I < faces[0]; ++I)
-        row[I] *= factor(d == 0 ? I : d == 1 ? J : K);
-    }
+  deal(worth_a_team(from), faces[1], faces[2], [&](int J, int K) {
+    const auto [k_first, k_end] = range(2, K);
+    const auto [j_first, j_end] = range(1, J);
+    float* row = joined + to.at(0, J, K);
+    std::fill(row, row + faces[0], 0.0F);
+    for (int k = k_first; k < k_end; ++k)
+      for (int j = j_first; j < j_end; ++j)
+        add_faces(c + from.at(0, j, k), from.cells[0], pairing[0], d == 0, row, to.cells[0]);
+    for (int I = 0; I < faces[0]; ++I)
+      row[I] *= factor(d == 0 ? I : d == 1 ? J : K);
+  });
 }
 
 void invert_diagonal(LevelBlock& b) {

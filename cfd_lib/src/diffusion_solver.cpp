@@ -96,16 +96,14 @@ void DiffusionSolver::Impl::take_coefficients(const FaceConductance& conductance
         continue;
       Index3 n = to.cells;
       ++n[d];
-#pragma omp parallel for collapse(2) schedule(static) if (to.interior() >= smallest_parallel_sweep)
-      for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j) {
-          const double* g = conductance[b][d].data() + from.at(0, j, k);
-          float* taken = block.coefficient[d].data() + to.at(0, j, k);
-          const double factor = 0.5 * scale;
+      deal(worth_a_team(to), n[1], n[2], [&](int j, int k) {
+        const double* g = conductance[b][d].data() + from.at(0, j, k);
+        float* taken = block.coefficient[d].data() + to.at(0, j, k);
+        const double factor = 0.5 * scale;
 #pragma omp simd
-          for (int i = 0; i < n[0]; ++i)
-            taken[i] = float(factor * g[i]);
-        }
+        for (int i = 0; i < n[0]; ++i)
+          taken[i] = float(factor * g[i]);
+      });
     }
   }
   for (BoundedFace& bounded_face : bounded) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <numeric>
 #include <omp.h>
 #include <utility>
@@ -322,11 +323,11 @@ template <class Source> void GraphLevel::join(const Source& source, double least
   std::vector<int> members_of_cell(u(cells) + 1, 0);
 
   // Which nodes stay together: their group's number in the cell, for now.
-#pragma omp parallel if (cells >= smallest_parallel_sweep)
-  {
+  const bool parallel = cells >= smallest_parallel_sweep;
+  in_team(parallel, [&] {
     std::vector<int> nodes;
     CellGroups groups;
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int c = 0; c < cells; ++c) {
       const auto [b, cell] = line.at(c);
       source.list(b, cell, nodes);
@@ -336,16 +337,15 @@ template <class Source> void GraphLevel::join(const Source& source, double least
       for (std::size_t a = 0; a < nodes.size(); ++a)
         joined[u(nodes[a])] = apart ? groups.of(int(a)) : 0;
     }
-  }
+  });
   std::partial_sum(first_of_cell.begin(), first_of_cell.end(), first_of_cell.begin());
   std::partial_sum(members_of_cell.begin(), members_of_cell.end(), members_of_cell.begin());
   own = first_of_cell.back();
   first_member.assign(u(own) + 1, members_of_cell.back());
   member.resize(u(members_of_cell.back()));
-#pragma omp parallel if (cells >= smallest_parallel_sweep)
-  {
+  in_team(parallel, [&] {
     std::vector<int> nodes;
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int c = 0; c < cells; ++c) {
       const auto [b, cell] = line.at(c);
       source.list(b, cell, nodes);
@@ -359,7 +359,7 @@ template <class Source> void GraphLevel::join(const Source& source, double least
       for (const int node : nodes)
         joined[u(node)] += first_of_cell[u(c)];
     }
-  }
+  });
 
   // Neighbours on other ranks.
   const auto remote = source.across_links(joined);
@@ -383,13 +383,11 @@ template <class Source> void GraphLevel::join(const Source& source, double least
     std::vector<Edge> edges;
     std::vector<int> ends;
   };
-  const bool parallel = cells >= smallest_parallel_sweep;
   std::vector<Rows> parts(u(parallel ? omp_get_max_threads() : 1));
   std::array<std::vector<float>, 3> resistance; ///< between the halves of a node; 0 where undivided
   for (std::vector<float>& along : resistance)
     along.assign(x.size(), 0.0F);
-#pragma omp parallel num_threads(int(parts.size()))
-  {
+  in_team(parallel, [&] {
     const int threads = omp_get_num_threads(), thread = omp_get_thread_num();
     Rows& rows = parts[u(thread)];
     const int end = int(long(cells) * (thread + 1) / threads);
@@ -423,7 +421,7 @@ template <class Source> void GraphLevel::join(const Source& source, double least
           resistance[d][u(node)] = inside[d] > 0 ? float(1 / inside[d]) : 0.0F;
       }
     }
-  }
+  });
   row.assign(1, 0);
   for (const Rows& rows : parts) {
     const int before = row.back();
@@ -445,10 +443,10 @@ template <class Source> void GraphLevel::join(const Source& source, double least
   for (std::vector<float>& along : resistance)
     halo.exchange(along);
 
-    // Over the distance that has grown, where the way through both nodes is as resistive as between
-    // them, but no less than on a structured level.
-#pragma omp parallel for schedule(static) if (parallel)
-  for (int c = 0; c < cells; ++c) {
+  // Over the distance that has grown, where the way through both nodes is as resistive as between
+  // them, but no less than on a structured level.
+  deal(parallel, cells, [&](std::ptrdiff_t n) {
+    const int c = int(n);
     const auto [b, cell] = line.at(c);
     const std::array<CellSide, 6> sides = sides_of(source.fine, place, b, cell);
     for (int node = first_of_cell[u(c)]; node < first_of_cell[u(c) + 1]; ++node) {
@@ -465,7 +463,7 @@ template <class Source> void GraphLevel::join(const Source& source, double least
       }
       inverse_diagonal[u(node)] = diagonal > 0 ? float(1 / diagonal) : 0.0F;
     }
-  }
+  });
   total = own;
   MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_LONG, MPI_SUM, place.mesh.comm);
 }
@@ -492,19 +490,20 @@ void GraphLevel::smooth(Start start) {
   const bool from_zero = start == Start::zero;
   if (from_zero) {
     const float gain = steps.steps[1].gain;
-#pragma omp parallel for simd schedule(static) if (own >= smallest_parallel_sweep)
-    for (int i = 0; i < own; ++i)
-      x[u(i)] = gain * inverse_diagonal[u(i)] * rhs[u(i)];
+    deal(own >= smallest_parallel_sweep, own, [&](std::ptrdiff_t i) {
+      x[std::size_t(i)] = gain * inverse_diagonal[std::size_t(i)] * rhs[std::size_t(i)];
+    });
   }
   const int first = from_zero ? 2 : 1;
   for (int n = first; n <= steps.count(); ++n) {
     halo.exchange(x);
     const auto [keep, gain] = steps.steps[u(n)];
     const float keep_before = n > first ? keep : 0.0F;
-#pragma omp parallel for schedule(static) if (own >= smallest_parallel_sweep)
-    for (int i = 0; i < own; ++i)
-      spare[u(i)] = (1 + keep) * x[u(i)] + gain * inverse_diagonal[u(i)] * left_over(i, x) -
-                    keep_before * spare[u(i)];
+    deal(own >= smallest_parallel_sweep, own, [&, keep = keep, gain = gain](std::ptrdiff_t node) {
+      const auto i = std::size_t(node);
+      spare[i] = (1 + keep) * x[i] + gain * inverse_diagonal[i] * left_over(node, x) -
+                 keep_before * spare[i];
+    });
     std::swap(x, spare);
   }
 }
@@ -516,28 +515,27 @@ void GraphLevel::restrict_from(const Level& cells) {
     const float* residual = cells.blocks[b].rhs.data();
     const int begin = first_of_cell[u(line.first_of_block(b))],
               end = first_of_cell[u(line.first_of_block(b + 1))], origin = position[b];
-#pragma omp parallel for schedule(static) if (end - begin >= smallest_parallel_sweep)
-    for (int i = begin; i < end; ++i) {
+    deal(end - begin >= smallest_parallel_sweep, end - begin, [&](std::ptrdiff_t n) {
+      const auto i = u(begin) + std::size_t(n);
       float sum = 0;
-      for (int m = first_member[u(i)]; m < first_member[u(i) + 1]; ++m)
+      for (int m = first_member[i]; m < first_member[i + 1]; ++m)
         sum += residual[member[u(m)] - origin];
-      rhs[u(i)] = sum;
-    }
+      rhs[i] = sum;
+    });
   }
 }
 
 void GraphLevel::restrict_from(GraphLevel& fine) {
   fine.halo.exchange(fine.x);
-#pragma omp parallel for schedule(static) if (fine.own >= smallest_parallel_sweep)
-  for (int i = 0; i < fine.own; ++i)
-    fine.spare[u(i)] = fine.left_over(i, fine.x);
-#pragma omp parallel for schedule(static) if (own >= smallest_parallel_sweep)
-  for (int i = 0; i < own; ++i) {
+  deal(fine.own >= smallest_parallel_sweep, fine.own,
+       [&](std::ptrdiff_t i) { fine.spare[std::size_t(i)] = fine.left_over(i, fine.x); });
+  deal(own >= smallest_parallel_sweep, own, [&](std::ptrdiff_t node) {
+    const auto i = std::size_t(node);
     float sum = 0;
-    for (int m = first_member[u(i)]; m < first_member[u(i) + 1]; ++m)
+    for (int m = first_member[i]; m < first_member[i + 1]; ++m)
       sum += fine.spare[u(member[u(m)])];
-    rhs[u(i)] = sum;
-  }
+    rhs[i] = sum;
+  });
 }
 
 void GraphLevel::correct(Level& cells) const {
@@ -554,21 +552,19 @@ void GraphLevel::correct(Level& cells) const {
 }
 
 void GraphLevel::correct(GraphLevel& fine) const {
-#pragma omp parallel for schedule(static) if (fine.own >= smallest_parallel_sweep)
-  for (int i = 0; i < fine.own; ++i)
-    fine.x[u(i)] += x[u(joined[u(i)])];
+  deal(fine.own >= smallest_parallel_sweep, fine.own,
+       [&](std::ptrdiff_t i) { fine.x[std::size_t(i)] += x[u(joined[std::size_t(i)])]; });
 }
 
 long badly_joined(const Level& fine, const Level& coarse, double least) {
-  long bad = 0;
+  std::atomic<long> bad = 0;
   for (std::size_t b = 0; b < fine.blocks.size(); ++b) {
     const LevelBlock& block = fine.blocks[b];
     const Index3& N = coarse.blocks[b].layout.cells;
     const auto& pairing = coarse.pairings[u(coarse.mesh.local[b].id)];
-#pragma omp parallel reduction(+ : bad) if (block.layout.interior() >= smallest_parallel_sweep)
-    {
+    in_team(worth_a_team(block.layout), [&] {
       CellGroups groups;
-#pragma omp for collapse(2) schedule(static)
+#pragma omp for collapse(2) schedule(static) nowait
       for (int K = 0; K < N[2]; ++K)
         for (int J = 0; J < N[1]; ++J) {
           if (!has_weak_coupling(block, pairing, J, K, float(least)))
@@ -578,7 +574,7 @@ long badly_joined(const Level& fine, const Level& coarse, double least) {
                 groups.join(least) > 1)
               ++bad;
         }
-    }
+    });
   }
   return bad;
 }

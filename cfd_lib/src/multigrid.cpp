@@ -3,6 +3,7 @@
 #include <granflux/cfd/multigrid.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -130,7 +131,7 @@ struct Multigrid::Impl {
 
 bool Multigrid::Impl::has(const PressureSystem& system) const {
   const Level& finest = *levels.front();
-  bool same = ready;
+  std::atomic<bool> same = ready;
   for (std::size_t b = 0; b < finest.blocks.size(); ++b) {
     const LevelLayout& layout = finest.blocks[b].layout;
     const Layout& from = finest.mesh.local[b].layout;
@@ -142,18 +143,18 @@ bool Multigrid::Impl::has(const PressureSystem& system) const {
       Index3 n = layout.cells;
       ++n[u(d)];
       // Ends at the first row that differs: a system that has changed costs next to nothing.
-#pragma omp parallel for schedule(static) if (layout.interior() >= smallest_parallel_sweep)        \
-    reduction(&& : same)
-      for (int k = 0; k < n[2]; ++k)
+      deal(worth_a_team(layout), n[2], [&](std::ptrdiff_t k) {
         for (int j = 0; same && j < n[1]; ++j) {
-          const double* row = c + from.at(0, j, k);
-          const float* taken_row = taken + layout.at(0, j, k);
+          const double* row = c + from.at(0, j, int(k));
+          const float* taken_row = taken + layout.at(0, j, int(k));
           int differ = 0;
 #pragma omp simd reduction(+ : differ)
           for (int i = 0; i < n[0]; ++i)
             differ += float(row[i] * scale) == taken_row[i] ? 0 : 1;
-          same = differ == 0;
+          if (differ > 0)
+            same = false;
         }
+      });
     }
   }
   return same;
@@ -169,42 +170,47 @@ DiagonalRange Multigrid::Impl::take(const PressureSystem& system) {
     std::array<double, 3> couples{}; // 1, or 0 where a direction is its own neighbour
     for (int d = 0; d < 3; ++d)
       couples[u(d)] = closed_on_itself(finest.mesh, finest.mesh.local[b].id, d) ? 0 : 1;
-    double least = range.least, most = range.most;
-    int bad = 0;
-#pragma omp parallel for collapse(2) schedule(static) reduction(min : least)                       \
-    reduction(max : most) reduction(+ : bad) if (to.interior() >= smallest_parallel_sweep)
-    for (int k = 0; k <= to.cells[2]; ++k)
-      for (int j = 0; j <= to.cells[1]; ++j) {
-        std::array<const double*, 3> c{};
-        for (int d = 0; d < 3; ++d) {
-          c[u(d)] = system.coefficient[b][u(d)].data() + from.at(0, j, k);
-          if ((j == to.cells[1] && d != 1) || (k == to.cells[2] && d != 2))
-            continue; // no such faces
-          const double factor = couples[u(d)] * scale;
-          float* taken = block.coefficient[u(d)].data() + to.at(0, j, k);
+    in_team(worth_a_team(to), [&] {
+      const DiagonalRange none;
+      double least = none.least, most = none.most;
+      int bad = 0;
+#pragma omp for collapse(2) schedule(static) nowait
+      for (int k = 0; k <= to.cells[2]; ++k)
+        for (int j = 0; j <= to.cells[1]; ++j) {
+          std::array<const double*, 3> c{};
+          for (int d = 0; d < 3; ++d) {
+            c[u(d)] = system.coefficient[b][u(d)].data() + from.at(0, j, k);
+            if ((j == to.cells[1] && d != 1) || (k == to.cells[2] && d != 2))
+              continue; // no such faces
+            const double factor = couples[u(d)] * scale;
+            float* taken = block.coefficient[u(d)].data() + to.at(0, j, k);
 #pragma omp simd
-          for (int i = 0; i < to.cells[0] + (d == 0); ++i)
-            taken[i] = float(c[u(d)][i] * factor);
-        }
-        if (j == to.cells[1] || k == to.cells[2])
-          continue;
-        float* inverse = block.inverse_diagonal.data() + to.at(0, j, k);
-        const auto [ci, cj, ck] = c;
-        const std::ptrdiff_t sj = from.stride[1], sk = from.stride[2];
+            for (int i = 0; i < to.cells[0] + (d == 0); ++i)
+              taken[i] = float(c[u(d)][i] * factor);
+          }
+          if (j == to.cells[1] || k == to.cells[2])
+            continue;
+          float* inverse = block.inverse_diagonal.data() + to.at(0, j, k);
+          const auto [ci, cj, ck] = c;
+          const std::ptrdiff_t sj = from.stride[1], sk = from.stride[2];
 #pragma omp simd reduction(min : least) reduction(max : most) reduction(+ : bad)
-        for (std::ptrdiff_t i = 0; i < to.cells[0]; ++i) {
-          const double diagonal = couples[0] * (ci[i] + ci[i + 1]) +
-                                  couples[1] * (cj[i] + cj[i + sj]) +
-                                  couples[2] * (ck[i] + ck[i + sk]);
-          inverse[i] = float(1 / (diagonal * scale));
-          least = diagonal < least ? diagonal : least;
-          most = diagonal > most ? diagonal : most;
-          bad += diagonal > 0 && diagonal < std::numeric_limits<double>::infinity() ? 0 : 1;
+          for (std::ptrdiff_t i = 0; i < to.cells[0]; ++i) {
+            const double diagonal = couples[0] * (ci[i] + ci[i + 1]) +
+                                    couples[1] * (cj[i] + cj[i + sj]) +
+                                    couples[2] * (ck[i] + ck[i + sk]);
+            inverse[i] = float(1 / (diagonal * scale));
+            least = diagonal < least ? diagonal : least;
+            most = diagonal > most ? diagonal : most;
+            bad += diagonal > 0 && diagonal < std::numeric_limits<double>::infinity() ? 0 : 1;
+          }
         }
+#pragma omp critical
+      {
+        range.least = std::min(range.least, least);
+        range.most = std::max(range.most, most);
+        range.good = range.good && bad == 0;
       }
-    range.least = least;
-    range.most = most;
-    range.good = range.good && bad == 0;
+    });
   }
   double ends[3] = {range.least, -range.most, range.good ? 1.0 : 0.0};
   MPI_Allreduce(MPI_IN_PLACE, ends, 3, MPI_DOUBLE, MPI_MIN, finest.mesh.comm);

@@ -232,8 +232,7 @@ private:
               d[i] = unit * z[i] + keep * d[i];
         }
       };
-#pragma omp parallel if (layout.interior() >= smallest_parallel_sweep)
-      {
+      in_team(worth_a_team(layout), [&, nj = nj, nk = nk] {
         const int threads = omp_get_num_threads(), thread = omp_get_thread_num();
         const int begin = int(long(nk) * thread / threads),
                   end = int(long(nk) * (thread + 1) / threads);
@@ -254,7 +253,7 @@ private:
           for (int j = 0; j < nj; ++j)
             room_[std::size_t(j) + rows * std::size_t(k)] = image_row(b, layout.at(0, j, k));
         }
-      }
+      });
       for (std::size_t r = 0; r < planes * rows; ++r)
         total += room_[r];
     }

@@ -294,7 +294,7 @@ void sweep_slab(const Sweep& s, Start start, const LevelBlock* correction, Level
 
 /// Makes room for as many threads as may sweep the block.
 void make_room(LevelBlock& b) {
-  const bool parallel = b.layout.interior() >= smallest_parallel_sweep;
+  const bool parallel = worth_a_team(b.layout);
   const auto threads = std::size_t(parallel ? omp_get_max_threads() : 1);
   if (b.planes.size() < threads)
     b.planes.resize(threads);
@@ -314,15 +314,14 @@ void sweep_block(const Level& level, LevelBlock& b, const std::array<Pairing, 3>
   const Sweep s(level, b, &pairing);
   make_room(b);
   const int N = s.outer.coarse(s.n_outer - 1) + 1; // coarse planes: a slab begins where one does
-#pragma omp parallel if (b.layout.interior() >= smallest_parallel_sweep)
-  {
+  in_team(worth_a_team(b.layout), [&] {
     const int threads = omp_get_num_threads(), thread = omp_get_thread_num();
     const int begin = s.outer.first(int(long(N) * thread / threads), s.n_outer);
     const int end = s.outer.first(int(long(N) * (thread + 1) / threads), s.n_outer);
     if (begin < end)
       sweep_slab(s, start, correction, coarse, b, Window(b, s.steps, own_room(b, s.steps)), begin,
                  end);
-  }
+  });
   std::swap(b.x, b.spare);
 }
 
@@ -332,9 +331,7 @@ template <class Body> void for_planes(Level& level, const Pairings* pairings, Bo
   for (std::size_t b = 0; b < level.blocks.size(); ++b) {
     LevelBlock& block = level.blocks[b];
     const Sweep s(level, block, pairings ? &(*pairings)[u(level.mesh.local[b].id)] : nullptr);
-#pragma omp parallel for schedule(static) if (block.layout.interior() >= smallest_parallel_sweep)
-    for (int k = 0; k < s.n_outer; ++k)
-      body(s, b, k);
+    deal(worth_a_team(block.layout), s.n_outer, [&](std::ptrdiff_t k) { body(s, b, int(k)); });
   }
 }
 
@@ -388,16 +385,15 @@ void smooth_and_restrict(Level& level, Level& coarse, Start start) {
     make_room(block);
     const Sweep s(level, block, &coarse.pairings[u(level.mesh.local[b].id)]);
     const int N = s.outer.coarse(s.n_outer - 1) + 1;
-#pragma omp parallel if (block.layout.interior() >= smallest_parallel_sweep)
-    {
+    in_team(worth_a_team(block.layout), [&] {
       float* row = Window(block, s.steps, own_room(block, s.steps)).row();
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
       for (int K = 0; K < N; ++K)
         for (int k = s.outer.first(K, s.n_outer); k < s.outer.first(K + 1, s.n_outer); ++k) {
           const auto x = [&](int plane) { return as_const(s.plane(block.x.data(), plane)); };
           restrict_plane(s, coarse.blocks[b], k, x(k), x(k - 1), x(k + 1), row);
         }
-    }
+    });
   }
 }
 

@@ -42,7 +42,7 @@ ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm c
   double speed2 = 0, rate2 = 0, least_radius = far, least_mass = far, largest_radius = 0;
   double mass_per_cube = far; // of the radius
   const auto n = std::ptrdiff_t(view.size());
-  const bool all_free = view.fixed.empty();
+  const bool all_free = view.fixed.empty(), with_heat = !view.temperature.empty();
 #pragma omp parallel for schedule(static)                                                          \
     reduction(+ : bad) reduction(max : speed2, rate2, largest_radius)                              \
     reduction(min : least_radius, least_mass, mass_per_cube)
@@ -55,7 +55,8 @@ ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm c
     const bool moves = (std::abs(sum(view.position[p])) <= far) & (v2 <= far) & (v2 * path2 <= r2);
     const bool fixed = !all_free && view.fixed[p];
     const bool held = (f2 * dt4 <= r2 * m * m) | ((f2 <= far) & fixed);
-    bad += !(moves & held);
+    const bool warm = !with_heat || (view.temperature[p] >= 0 && view.temperature[p] <= far);
+    bad += !(moves & held & warm);
     speed2 = std::max(speed2, v2);
     if (v2 > rate2 * r2)
       rate2 = v2 / r2;
@@ -65,8 +66,6 @@ ParticleProbe ParticleJudge::look(const coupling::ParticleView& view, MPI_Comm c
     least_mass = std::min(least_mass, m);
     largest_radius = std::max(largest_radius, r);
   }
-  for (const double t : view.temperature)
-    bad += !(t >= 0 && t <= far);
   std::array<double, 7> all{double(bad), speed2,         rate2,         -least_radius,
                             -least_mass, largest_radius, -mass_per_cube};
   MPI_Allreduce(MPI_IN_PLACE, all.data(), int(all.size()), MPI_DOUBLE, MPI_MAX, comm);

@@ -24,8 +24,10 @@
 
 #include "driver/fixes_of_run.hpp"
 #include "driver/guard.hpp"
+#include "driver/rows_of.hpp"
 #include "driver/scene_of_script.hpp"
 #include "fix_checkpoint.hpp"
+#include "particle_subset/team.hpp"
 #include "particle_subset/work_times.hpp"
 #include "scene.hpp"
 
@@ -177,16 +179,19 @@ void FixCouple::fill_outputs() {
   if (!fluid_)
     return;
   const coupling::ParticleView view = host_->particles(false);
-  for (std::size_t i = 0; i < view.size(); ++i) {
-    const coupling::FluidState& state = view.fluid[i];
-    for (int d = 0; d < 3; ++d) {
-      drag_force_->array_atom[i][d] = state.force[d];
-      gas_velocity_->array_atom[i][d] = state.gas_velocity[d];
+  const std::size_t n = view.size();
+  const auto drag_force = driver::rows_of<Vec3>(drag_force_->array_atom, n);
+  const auto gas_velocity = driver::rows_of<Vec3>(gas_velocity_->array_atom, n);
+  particle_subset::for_each_subset(int(n), [&](particle_subset::Range range) {
+    for (auto i = std::size_t(range.begin); i < std::size_t(range.end); ++i) {
+      const coupling::FluidState& state = view.fluid[i];
+      drag_force[i] = state.force;
+      gas_velocity[i] = state.gas_velocity;
+      void_fraction_->vector_atom[i] = state.void_fraction;
+      if (gas_temperature_)
+        gas_temperature_->vector_atom[i] = view.heat[i].gas_temperature;
     }
-    void_fraction_->vector_atom[i] = state.void_fraction;
-    if (gas_temperature_)
-      gas_temperature_->vector_atom[i] = view.heat[i].gas_temperature;
-  }
+  });
 }
 
 void FixCouple::post_run() {

@@ -9,7 +9,7 @@
 
 #include <granflux/cfd/field.hpp>
 #include <granflux/cfd/out_of_memory.hpp>
-#include <granflux/cfd/sweep.hpp>
+#include <granflux/cfd/team.hpp>
 
 namespace granflux::cfd {
 
@@ -52,19 +52,11 @@ public:
       throw OutOfMemory(double(bytes(size)));
     const auto n = std::ptrdiff_t(bytes(size) / sizeof(float));
     float* v = values_.get();
-#pragma omp parallel for schedule(static) if (n >= smallest_parallel_sweep)
-    for (std::ptrdiff_t c = 0; c < n; ++c)
-      v[c] = 0;
+    deal(n >= smallest_parallel_sweep, n, [=](std::ptrdiff_t c) { v[c] = 0; });
   }
-  float* data() {
-    return values_.get();
-  }
-  [[nodiscard]] const float* data() const {
-    return values_.get();
-  }
-  [[nodiscard]] std::size_t size() const {
-    return size_;
-  }
+  float* data() { return values_.get(); }
+  [[nodiscard]] const float* data() const { return values_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
   static constexpr std::size_t alignment = 64;

@@ -13,12 +13,8 @@ namespace granflux::cfd {
 /// body(row, j, k) for every row of interior cells along i, row the position of its first (Layout
 /// or LevelLayout); rows are dealt to the threads.
 template <class AnyLayout, class Body> void for_rows(const AnyLayout& layout, Body&& body) {
-  const int nj = layout.cells[1], nk = layout.cells[2];
-#pragma omp parallel for collapse(2)                                                               \
-    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
-  for (int k = 0; k < nk; ++k)
-    for (int j = 0; j < nj; ++j)
-      body(layout.at(0, j, k), j, k);
+  deal(worth_a_team(layout), layout.cells[1], layout.cells[2],
+       [&](int j, int k) { body(layout.at(0, j, k), j, k); });
 }
 
 /// body(d, row, n) for every row along i of the n faces of each direction d that begin at `row`,
@@ -26,18 +22,15 @@ template <class AnyLayout, class Body> void for_rows(const AnyLayout& layout, Bo
 /// they share stays in cache.
 template <class Body> void for_face_rows(const Layout& layout, Body&& body) {
   const auto [ni, nj, nk] = layout.cells;
-#pragma omp parallel for collapse(2)                                                               \
-    schedule(static) if (layout.interior() >= smallest_parallel_sweep)
-  for (int k = 0; k <= nk; ++k)
-    for (int j = 0; j <= nj; ++j) {
-      const std::ptrdiff_t row = layout.at(0, j, k);
-      if (j < nj && k < nk)
-        body(std::size_t(0), row, ni + 1);
-      if (k < nk)
-        body(std::size_t(1), row, ni);
-      if (j < nj)
-        body(std::size_t(2), row, ni);
-    }
+  deal(worth_a_team(layout), nj + 1, nk + 1, [&, ni = ni, nj = nj, nk = nk](int j, int k) {
+    const std::ptrdiff_t row = layout.at(0, j, k);
+    if (j < nj && k < nk)
+      body(std::size_t(0), row, ni + 1);
+    if (k < nk)
+      body(std::size_t(1), row, ni);
+    if (j < nj)
+      body(std::size_t(2), row, ni);
+  });
 }
 
 /// Sums of what term(row, j, k) returns, an array of numbers, over the rows in their order whatever
