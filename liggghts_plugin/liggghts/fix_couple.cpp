@@ -3,6 +3,8 @@
 
 #include "fix_couple.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,6 +40,15 @@ namespace {
 constexpr char fluid_property[] = "granflux_fluid";
 constexpr char heat_property[] = "granflux_heat_state";
 constexpr char gas_temperature_property[] = "gasTemperature";
+
+/// Whether a fix may look at the outputs of each particle between two steps of output, as fix ave
+/// does, or a variable that a fix takes. Of these it is known that they do not.
+bool may_look(const LAMMPS_NS::Fix& fix) {
+  constexpr std::array blind{"granflux/", "nve/",      "wall/gran",      "gravity",  "property/",
+                             "mesh/",     "move/mesh", "contacthistory", "neighlist"};
+  const std::string_view style = fix.style;
+  return std::ranges::none_of(blind, [&](const char* name) { return style.starts_with(name); });
+}
 
 } // namespace
 
@@ -127,6 +138,7 @@ void FixCouple::setup(int) {
   driver::guard(*this, *error, [&] {
     host_->find_held();
     find_heat();
+    find_who_looks();
     if (gas_->solves_gas())
       time_all_fixes();
     gas_->set_up(*host_, run_steps(), update->dt);
@@ -145,6 +157,12 @@ void FixCouple::find_heat() {
                       "fix granflux/heat");
   heat->leave_steps_to_gas(gas_->couple_every());
   host_->set_heat(*heat, *heat_states_);
+}
+
+void FixCouple::find_who_looks() {
+  outputs_are_looked_at_ = false;
+  for (int i = 0; i < modify->nfix; ++i)
+    outputs_are_looked_at_ = outputs_are_looked_at_ || may_look(*modify->fix[i]);
 }
 
 /// The table of post_run needs the seconds of each fix, from zero on.
@@ -167,14 +185,16 @@ void FixCouple::pre_final_integrate() {
     if (!gas_->running()) { // a run without set-up (`run N pre no`)
       if (gas_->solves_gas())
         time_all_fixes();
+      find_who_looks();
       gas_->begin_run(run_steps());
     }
     const bool coupling_step = gas_->step(*host_, long(update->ntimestep), update->dt);
-    if (coupling_step || update->ntimestep == output->next)
+    if ((coupling_step && outputs_are_looked_at_) || update->ntimestep == output->next)
       fill_outputs();
   });
 }
 
+/// It takes as long as half of the exchange: only where somebody looks.
 void FixCouple::fill_outputs() {
   if (!fluid_)
     return;
@@ -199,6 +219,7 @@ void FixCouple::post_run() {
     return;
   if (gas_->solves_gas())
     modify->timing = timing_of_script_;
+  fill_outputs(); // a run that is asked to stop ends between two steps of output
   driver::RunTimes times;
   for (int i = 0; i < modify->nfix; ++i)
     if (modify->fix[i] != this)

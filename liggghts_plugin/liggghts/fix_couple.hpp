@@ -45,6 +45,7 @@ private:
   void find_heat();
   void time_all_fixes();
   [[nodiscard]] driver::RunSteps run_steps() const;
+  void find_who_looks();
   void fill_outputs();
 
   std::unique_ptr<driver::GasDriver> gas_;
@@ -60,7 +61,8 @@ private:
   bool own_drag_force_ = false, own_void_fraction_ = false, own_gas_velocity_ = false,
        own_gas_temperature_ = false;
 
-  int timing_of_script_ = 0; ///< what the command modify_timing asked for
+  bool outputs_are_looked_at_ = true; ///< between two steps of output
+  int timing_of_script_ = 0;          ///< what the command modify_timing asked for
 };
 
 } // namespace granflux::liggghts

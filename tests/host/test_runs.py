@@ -73,6 +73,17 @@ class Runs(HostTest):
         self.assertTrue(all(row[6] > 0.4 for row in atoms.values()))
         self.assertTrue(all(row[2] > 0 for row in atoms.values()))
 
+    def test_outputs_for_those_who_look_between_outputs(self):
+        run = bed() + couple(5) + "compute drag all reduce sum f_dragforce[3]\n"
+        self.run_script(run + "fix look all ave/time 5 1 5 c_drag file looked.txt\nthermo 40\nrun 40\n")
+        looked = [float(line.split()[1]) for line in self.read("looked.txt").splitlines()
+                  if not line.startswith("#")]
+        shown = self.run_script(run + "thermo_style custom step c_drag\nthermo 5\nrun 40\n")
+        self.assertEqual(len(looked), 9)
+        for (_, drag), other in zip(thermo_rows(shown)[1:], looked[1:], strict=True):
+            self.assertAlmostEqual(drag / other, 1, delta=5e-6)  # six digits in a file
+        self.assertGreater(len(set(looked)), 8)
+
     def test_rank_independence(self):
         # The particles from a file: create_atoms numbers them differently on every number of ranks.
         self.run_script(bed() + "write_restart start.restart\n")
