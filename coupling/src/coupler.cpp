@@ -27,10 +27,11 @@ struct Coupler::Impl {
       : gas_case(c), options(checked(o)), mesh(cfd::make_mesh(c, comm)), halo(mesh), gas(mesh, c),
         transfer(mesh, halo, options, times), void_fraction(mesh, o.void_fraction_floor),
         at_particles(options, gas, transfer), charges(o.effects.any_force(), c.energy.has_value()),
-        momentum(options, mesh, gas, transfer, at_particles, charges),
-        heat(options, gas_case, mesh, gas, transfer, at_particles, charges), ledger(comm) {}
+        momentum(parts()), heat(parts(), gas_case), ledger(comm) {}
 
   static const CouplingOptions& checked(const CouplingOptions& options);
+  TransferParts parts() { return {options, gas, transfer, at_particles, charges}; }
+  void check(const ParticleView& view) const;
 
   void advance_alone(double interval);
   void leave_alone(const ParticleView& view, double interval, ExchangeSums& sums);
@@ -60,6 +61,16 @@ const CouplingOptions& Coupler::Impl::checked(const CouplingOptions& options) {
     throw ConfigError("coupling: coarse_graining = " + text(options.coarse_graining) +
                       " must be 1 or more: diameter of a parcel over that of its particles");
   return options;
+}
+
+/// What particles must be before they are looked at.
+void Coupler::Impl::check(const ParticleView& view) const {
+  std::string complaint = heat.complaint_about(view);
+  if (view.size() > transfer.most_particles())
+    complaint = "coupling: " + std::to_string(view.size()) + " particles on one rank; with " +
+                "void_fraction = \"" + options.void_fraction + "\" on this grid a rank takes " +
+                std::to_string(transfer.most_particles()) + " at most: use more ranks";
+  throw_together<ConfigError>(mesh.comm, complaint);
 }
 
 /// Gas in which no particle is, nor counts. Where the last one has just gone, the pressure still
@@ -135,6 +146,7 @@ Coupler::~Coupler() = default;
 
 void Coupler::initialise(const ParticleView& view, double time) {
   Impl& s = *impl_;
+  s.check(view);
   s.transfer.locate(view);
   std::string complaint;
   for (std::size_t p = 0; p < view.size() && s.transfer.weights().outside_count() > 0; ++p) {
@@ -149,7 +161,6 @@ void Coupler::initialise(const ParticleView& view, double time) {
   }
   throw_together<ConfigError>(s.mesh.comm, complaint);
 
-  s.heat.check(view);
   for (std::size_t p = 0; p < view.size(); ++p)
     view.fluid[p] = {};
   std::fill(view.heat.begin(), view.heat.end(), HeatState{});
@@ -166,8 +177,8 @@ const ExchangeReport& Coupler::exchange(const ParticleView& view, double interva
   Impl& s = *impl_;
   if (!s.initialised)
     throw std::logic_error("Coupler::exchange needs initialise() or load() first");
+  s.check(view);
   s.transfer.locate(view);
-  s.heat.check(view);
   ExchangeSums sums;
   if (!s.transfer.any_placed())
     s.leave_alone(view, interval, sums);

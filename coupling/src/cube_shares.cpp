@@ -6,6 +6,8 @@
 #include <omp.h>
 #include <utility>
 
+#include "linear_places.hpp"
+
 namespace granflux::coupling {
 
 namespace {
@@ -80,44 +82,28 @@ bool CubeShares<n>::place(std::size_t p, const CellCube<n>& cube, const Window& 
   return lowest.contains(cube.lowest);
 }
 
-/// Places a block of particles, all of which take part, by arithmetic on vector registers. False
-/// where that does not do, and where a particle has left the window.
+/// Places particles all of which take part by arithmetic on vector registers. Says how many of
+/// `count`: fewer where one has left the window or the box, and those that are too few.
 template <int n>
-bool CubeShares<n>::place_block(const LatticeLocator& lattice, const Vec3* position,
-                                std::size_t first, std::size_t count, const Window& lowest,
-                                Moves& moves) {
-  if constexpr (n != 2)
-    return false;
-  else {
-    std::array<std::array<int, block>, 3> lower;
-    std::array<std::array<double, block>, 3> upper;
-    const auto* x = reinterpret_cast<const double*>(position + first);
-    for (std::size_t d = 0; d < 3; ++d)
-      if (!lattice.axis(int(d)).linear_rows(x + d, count, lower[d].data(), upper[d].data()))
-        return false;
-    const auto [nx, ny, nz] = window_.extent();
-    const auto [bx, by, bz] = window_.lo;
-    const auto [lx, ly, lz] = lowest.extent();
-    std::array<std::uint32_t, block> cell;
-    int left = 0;
-    std::uint32_t changed = 0;
-#pragma omp simd reduction(| : left, changed)
-    for (std::size_t i = 0; i < count; ++i) {
-      const int ix = lower[0][i] - bx, iy = lower[1][i] - by, iz = lower[2][i] - bz;
-      left |=
-          int(ix < 0) | int(iy < 0) | int(iz < 0) | int(ix >= lx) | int(iy >= ly) | int(iz >= lz);
-      cell[i] = std::uint32_t(ix + nx * (iy + ny * iz));
-      changed |= cell[i] ^ lowest_[first + i];
+std::size_t CubeShares<n>::place_together(const std::optional<LinearPlaces>& places,
+                                          const Vec3* position, std::size_t first,
+                                          std::size_t count, Moves& moves) {
+  std::size_t done = 0;
+  if constexpr (n == 2)
+    for (constexpr std::size_t some = LinearPlaces::together; places && done + some <= count;
+         done += some) {
+      const std::size_t p = first + done;
+      std::array<std::uint32_t, some> cell;
+      if (!places->find(&position[p].x, cell.data(), others_[p].front().data()))
+        break;
+      std::uint32_t changed = 0;
+      for (std::size_t i = 0; i < some; ++i)
+        changed |= cell[i] ^ lowest_[p + i];
+      if (changed != 0) [[unlikely]]
+        for (std::size_t i = 0; i < some; ++i)
+          set_lowest(p + i, cell[i], moves);
     }
-    if (left)
-      return false;
-    if (changed != 0)
-      for (std::size_t i = 0; i < count; ++i)
-        set_lowest(first + i, cell[i], moves);
-    for (std::size_t i = 0; i < count; ++i)
-      others_[first + i] = {{{upper[0][i]}, {upper[1][i]}, {upper[2][i]}}};
-    return true;
-  }
+  return done;
 }
 
 /// Nothing where a particle has left the window.
@@ -129,19 +115,19 @@ CubeShares<n>::place_all(const SplineKernel<n>& kernel, const LatticeLocator& la
   const Window lowest{
       window_.lo,
       {window_.hi[0] - many[0] + 1, window_.hi[1] - many[1] + 1, window_.hi[2] - many[2] + 1}};
+  const auto places = n == 2 && particles.coupled.empty()
+                          ? LinearPlaces::make(lattice, window_, lowest)
+                          : std::nullopt;
   bool left = false;
   Placing all = over_runs(particles.size(), [&](std::size_t begin, std::size_t end, Placing& mine) {
     Moves& moves = moves_[std::size_t(omp_get_thread_num())];
     bool one_left = false;
-    for (std::size_t first = begin, last; first < end; first = last) {
-      last = std::min(first + block, end);
-      if (particles.coupled.empty() &&
-          place_block(lattice, particles.position.data(), first, last - first, lowest, moves)) {
-        std::fill(placed.begin() + std::ptrdiff_t(first), placed.begin() + std::ptrdiff_t(last), 1);
-        mine.placed += last - first;
-        continue;
-      }
-      for (std::size_t p = first; p < last; ++p) {
+    for (std::size_t p = begin; p < end;) {
+      const std::size_t done = place_together(places, particles.position.data(), p, end - p, moves);
+      std::fill_n(placed.begin() + std::ptrdiff_t(p), done, 1);
+      mine.placed += done;
+      p += done;
+      for (const std::size_t last = std::min(p + LinearPlaces::together, end); p < last; ++p) {
         const auto cube = particles.takes_part(p)
                               ? kernel.cube(lattice, lattice.fold(particles.position[p]))
                               : std::nullopt;

@@ -23,38 +23,38 @@ GasAtParticles::GasAtParticles(const CouplingOptions& options, const cfd::GasSol
       diameter_over_radius_(2 / options.coarse_graining) {}
 
 void GasAtParticles::sample_before(const cfd::BlockFields& void_fraction) {
-  auto& work = transfer_.work;
+  fields_.clear();
   for (std::size_t b = 0; b < void_fraction.size(); ++b) {
-    work[0][b] = void_fraction[b];
-    for (std::size_t d = 0; d < 3; ++d)
-      work[1 + d][b] = gas_.velocity()[b][d];
+    fields_.push_back(&void_fraction[b]);
+    for (const cfd::Field& component : gas_.velocity()[b])
+      fields_.push_back(&component);
   }
   before_.resize(4 * transfer_.weights().particles());
-  transfer_.sample<4>(before_);
+  transfer_.sample<4>(fields_, before_);
 }
 
 void GasAtParticles::sample_after() {
-  auto& work = transfer_.work;
   const bool with_pressure = options_.effects.pressure_gradient;
   const cfd::BlockFields* const temperature = gas_.temperature();
+  fields_.clear();
   for (std::size_t b = 0; b < gas_.velocity().size(); ++b) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      work[d][b] = gas_.velocity()[b][d];
-      if (with_pressure)
-        work[3 + d][b] = gas_.pressure_gradient()[b][d];
-    }
+    for (const cfd::Field& component : gas_.velocity()[b])
+      fields_.push_back(&component);
+    if (with_pressure)
+      for (const cfd::Field& component : gas_.pressure_gradient()[b])
+        fields_.push_back(&component);
     if (temperature)
-      work[flow_numbers()][b] = (*temperature)[b];
+      fields_.push_back(&(*temperature)[b]);
   }
   after_.resize(after_numbers() * transfer_.weights().particles());
   if (with_pressure && temperature)
-    transfer_.sample<7>(after_);
+    transfer_.sample<7>(fields_, after_);
   else if (with_pressure)
-    transfer_.sample<6>(after_);
+    transfer_.sample<6>(fields_, after_);
   else if (temperature)
-    transfer_.sample<4>(after_);
+    transfer_.sample<4>(fields_, after_);
   else
-    transfer_.sample<3>(after_);
+    transfer_.sample<3>(fields_, after_);
 }
 
 /// gas_at(p): the void fraction at a particle, and the gas velocity [m/s].

@@ -76,8 +76,9 @@ private:
   const CouplingOptions& options_;
   const cfd::GasSolver& gas_;
   GridTransfer& transfer_;
-  double diameter_over_radius_; ///< diameter of a particle over the radius of its parcel
-  std::vector<double> before_;  ///< eps, u
+  double diameter_over_radius_;           ///< diameter of a particle over the radius of its parcel
+  std::vector<const cfd::Field*> fields_; ///< to be sampled
+  std::vector<double> before_;            ///< eps, u
   /// u; grad p where there are pressure forces; the temperature where there is an energy equation.
   std::vector<double> after_;
 };

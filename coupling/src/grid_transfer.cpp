@@ -128,26 +128,38 @@ template void GridTransfer::deposit<2>(std::span<const double>);
 template void GridTransfer::deposit<4>(std::span<const double>);
 template void GridTransfer::deposit<6>(std::span<const double>);
 
-template <std::size_t K> void GridTransfer::sample(std::span<double> values) {
-  std::array<const cfd::BlockFields*, K> fields;
-  for (std::size_t k = 0; k < K; ++k)
-    fields[k] = &work[k];
-  {
+/// In `work`.
+template <std::size_t K>
+std::vector<const cfd::Field*> GridTransfer::smoothed(std::span<const cfd::Field* const> fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    work[i % K][i / K] = *fields[i];
+  smooth<K>();
+  std::vector<const cfd::Field*> result;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    result.push_back(&work[i % K][i / K]);
+  return result;
+}
+
+template <std::size_t K>
+void GridTransfer::sample(std::span<const cfd::Field* const> fields, std::span<double> values) {
+  std::vector<const cfd::Field*> smooth_fields;
+  if (smoothing_) {
     const Stopwatch watch(times_.sample);
-    smooth<K>();
+    smooth_fields = smoothed<K>(fields);
+    fields = smooth_fields;
   }
   const std::span<Values<K>> gas_values = window<K>();
   {
     const Stopwatch watch(times_.messages);
-    exchange_.sample(fields, flat(gas_values));
+    exchange_.sample(fields, K, flat(gas_values));
   }
   const Stopwatch watch(times_.sample);
   weights_.sample(std::span<const Values<K>>(gas_values), rows<K>(values));
 }
-template void GridTransfer::sample<3>(std::span<double>);
-template void GridTransfer::sample<4>(std::span<double>);
-template void GridTransfer::sample<6>(std::span<double>);
-template void GridTransfer::sample<7>(std::span<double>);
+template void GridTransfer::sample<3>(std::span<const cfd::Field* const>, std::span<double>);
+template void GridTransfer::sample<4>(std::span<const cfd::Field* const>, std::span<double>);
+template void GridTransfer::sample<6>(std::span<const cfd::Field* const>, std::span<double>);
+template void GridTransfer::sample<7>(std::span<const cfd::Field* const>, std::span<double>);
 
 bool GridTransfer::any_placed() const {
   int any = weights_.placed_count() > 0;

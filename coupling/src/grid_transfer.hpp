@@ -44,14 +44,20 @@ public:
   GridTransfer(const cfd::Mesh& mesh, const cfd::Halo& halo, const CouplingOptions& options,
                CouplingTimes& times);
 
+  /// That a rank may have.
+  [[nodiscard]] std::size_t most_particles() const {
+    return Weights::most_particles(kernel_, locator_);
+  }
   /// Finds the cells of the particles and their shares. Collective.
   void locate(const ParticleView& view);
 
   /// work := S (sum_p w q_p / V): K numbers of each particle, K fields. Collective.
   template <std::size_t K> void deposit(std::span<const double> values);
-  /// values := sum_c w (S work)_c: K fields, K numbers of each particle. Collective.
-  template <std::size_t K> void sample(std::span<double> values);
-  /// On gas cells, between messages and solver.
+  /// values := sum_c w (S f)_c: of each local block K fields, K numbers of each particle. `work`
+  /// may be overwritten. Collective.
+  template <std::size_t K>
+  void sample(std::span<const cfd::Field* const> fields, std::span<double> values);
+  /// What deposit() leaves on gas cells.
   std::array<cfd::BlockFields, 7> work;
 
   [[nodiscard]] const Weights& weights() const { return weights_; }
@@ -69,6 +75,8 @@ public:
 private:
   void choose_smoothing(const ParticleView& view);
   template <std::size_t K> void smooth();
+  template <std::size_t K>
+  std::vector<const cfd::Field*> smoothed(std::span<const cfd::Field* const> fields);
   template <std::size_t K> std::span<Values<K>> window();
 
   const cfd::Mesh& mesh_;

@@ -9,40 +9,34 @@
 
 #include <granflux/cfd/error.hpp>
 #include <granflux/cfd/sweep.hpp>
-#include <granflux/coupling/throw_together.hpp>
 
 #include "particle_sums.hpp"
 
 namespace granflux::coupling {
 
-HeatTransfer::HeatTransfer(const CouplingOptions& options, const cfd::GasCase& gas_case,
-                           const cfd::Mesh& mesh, const cfd::GasSolver& gas, GridTransfer& transfer,
-                           const GasAtParticles& at_particles, Charges& charges)
-    : options_(options), gas_case_(gas_case), gas_(gas), transfer_(transfer),
-      at_particles_(at_particles), charges_(charges),
-      nusselt_(NusseltLaws::make("nusselt", options.nusselt)),
-      particles_a_parcel_(std::pow(options.coarse_graining, 3)) {
-  if (!charges.heat())
+HeatTransfer::HeatTransfer(const TransferParts& parts, const cfd::GasCase& gas_case)
+    : parts_(parts), gas_case_(gas_case),
+      nusselt_(NusseltLaws::make("nusselt", parts.options.nusselt)) {
+  if (!parts_.charges.heat())
     return;
-  if (gas_case.energy->conductivity == 0 && options.heat_transfer_coefficient == 0)
+  if (gas_case.energy->conductivity == 0 && parts_.options.heat_transfer_coefficient == 0)
     throw ConfigError("[energy] conductivity: must be above 0, for Nusselt numbers count in it; "
                       "[coupling] heat_transfer_coefficient does without");
-  if (options.effects.two_way)
-    on_gas_ = {.coefficient = cfd::make_fields(mesh), .source = cfd::make_fields(mesh)};
+  if (parts_.options.effects.two_way)
+    on_gas_ = {.coefficient = cfd::make_fields(parts_.gas.mesh()),
+               .source = cfd::make_fields(parts_.gas.mesh())};
 }
 
-void HeatTransfer::check(const ParticleView& view) const {
-  const bool without = charges_.heat() && view.heat.size() != view.size();
-  throw_together<ConfigError>(
-      gas_.mesh().comm,
-      without ? "[energy]: the particles have no temperature that the gas could change" : "");
+std::string HeatTransfer::complaint_about(const ParticleView& view) const {
+  const bool without = parts_.charges.heat() && view.heat.size() != view.size();
+  return without ? "[energy]: the particles have no temperature that the gas could change" : "";
 }
 
 /// Between the gas and particles [W/K].
 Lanes HeatTransfer::conductance_of(const SeenBlock& seen, ExchangeSums& mine) const {
-  const double given = options_.heat_transfer_coefficient;
+  const double given = parts_.options.heat_transfer_coefficient;
   if (given > 0) {
-    const double pi = particles_a_parcel_ * std::numbers::pi;
+    const double pi = parts_.particles_a_parcel() * std::numbers::pi;
     return lanes([&](std::size_t i) { return pi * seen.diameter[i] * seen.diameter[i] * given; });
   }
   return std::visit([&](const auto& law) { return conductance_of(law, seen, mine); }, nusselt_);
@@ -52,8 +46,8 @@ template <class Law>
 Lanes HeatTransfer::conductance_of(const Law& law, const SeenBlock& seen,
                                    ExchangeSums& mine) const {
   const double k = gas_case_.energy->conductivity;
-  const double prandtl = gas_.fluid().viscosity * gas_case_.energy->heat_capacity / k;
-  const double pi_k = particles_a_parcel_ * std::numbers::pi * k;
+  const double prandtl = parts_.gas.fluid().viscosity * gas_case_.energy->heat_capacity / k;
+  const double pi_k = parts_.particles_a_parcel() * std::numbers::pi * k;
   const auto in = [&](std::size_t i) {
     return NusseltInput{
         .reynolds = seen.reynolds[i], .prandtl = prandtl, .void_fraction = seen.void_fraction[i]};
@@ -75,7 +69,8 @@ Lanes HeatTransfer::response(const Lanes& conductance, const ParticleView& view,
 
 ExchangeSums HeatTransfer::charge(const ParticleView& view, double interval) {
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
-    const Lanes conductance = conductance_of(at_particles_.see_before(view, first, count), mine);
+    const Lanes conductance =
+        conductance_of(parts_.at_particles.see_before(view, first, count), mine);
     const Lanes lambda = response(conductance, view, first, count, interval);
     mine.heat_stiffness_max = std::max(mine.heat_stiffness_max, largest(lambda));
     const Lanes effective = effective_coefficients(conductance, lambda);
@@ -83,14 +78,14 @@ ExchangeSums HeatTransfer::charge(const ParticleView& view, double interval) {
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t p = first + i;
       HeatState& state = view.heat[p];
-      if (!transfer_.placed(p)) {
+      if (!parts_.transfer.placed(p)) {
         state = {};
-        std::fill_n(charges_.heat(p), 2, 0);
+        std::fill_n(parts_.charges.heat(p), 2, 0);
         continue;
       }
       state.conductance = conductance[i];
       handed_over[i] = state.received - state.booked;
-      double* const terms = charges_.heat(p);
+      double* const terms = parts_.charges.heat(p);
       terms[0] = effective[i];
       terms[1] = effective[i] * view.temperature[p] - handed_over[i] / interval;
     }
@@ -101,12 +96,12 @@ ExchangeSums HeatTransfer::charge(const ParticleView& view, double interval) {
 }
 
 void HeatTransfer::hand_to_gas() {
-  const cfd::Mesh& mesh = gas_.mesh();
-  const std::size_t first = charges_.first_of_heat();
+  const cfd::Mesh& mesh = parts_.gas.mesh();
+  const std::size_t first = parts_.charges.first_of_heat();
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
-      on_gas_.coefficient[b][c] = transfer_.work[first][b][c];
-      on_gas_.source[b][c] = transfer_.work[first + 1][b][c];
+      on_gas_.coefficient[b][c] = parts_.transfer.work[first][b][c];
+      on_gas_.source[b][c] = parts_.transfer.work[first + 1][b][c];
     });
 }
 
@@ -115,11 +110,12 @@ ExchangeSums HeatTransfer::book(const ParticleView& view, double interval) {
     Lanes booked{};
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t p = first + i;
-      if (!transfer_.placed(p))
+      if (!parts_.transfer.placed(p))
         continue;
       HeatState& state = view.heat[p];
-      state.gas_temperature = at_particles_.temperature(p);
-      state.booked = interval * charges_.heat(p)[0] * (state.gas_temperature - view.temperature[p]);
+      state.gas_temperature = parts_.at_particles.temperature(p);
+      state.booked =
+          interval * parts_.charges.heat(p)[0] * (state.gas_temperature - view.temperature[p]);
       state.received = 0;
       booked[i] = state.booked;
     }
@@ -131,17 +127,18 @@ ExchangeSums HeatTransfer::book(const ParticleView& view, double interval) {
 
 ExchangeSums HeatTransfer::act(const ParticleView& view, double interval) const {
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
-    const Lanes conductance = conductance_of(at_particles_.see_alone(view, first, count), mine);
+    const Lanes conductance =
+        conductance_of(parts_.at_particles.see_alone(view, first, count), mine);
     mine.heat_stiffness_max = std::max(
         mine.heat_stiffness_max, largest(response(conductance, view, first, count, interval)));
     for (std::size_t p = first; p < first + count; ++p) {
       HeatState& state = view.heat[p];
-      if (!transfer_.placed(p)) {
+      if (!parts_.transfer.placed(p)) {
         state = {};
         continue;
       }
       state.conductance = conductance[p - first];
-      state.gas_temperature = at_particles_.temperature(p);
+      state.gas_temperature = parts_.at_particles.temperature(p);
     }
   };
   return sum_blocks<ExchangeSums>(view.size(), of_block);

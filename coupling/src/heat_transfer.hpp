@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include <granflux/coupling/ledger.hpp>
 #include <granflux/coupling/nusselt/laws.hpp>
 
-#include "charges.hpp"
-#include "gas_at_particles.hpp"
+#include "transfer_parts.hpp"
 
 namespace granflux::coupling {
 
@@ -14,14 +15,12 @@ namespace granflux::coupling {
 /// take for them, and the books of it. The particles receive it by convected_heat().
 class HeatTransfer {
 public:
-  /// All but `mesh` must outlive this. Throws ConfigError where Nusselt numbers have no
-  /// conductivity to count in.
-  HeatTransfer(const CouplingOptions& options, const cfd::GasCase& gas_case, const cfd::Mesh& mesh,
-               const cfd::GasSolver& gas, GridTransfer& transfer,
-               const GasAtParticles& at_particles, Charges& charges);
+  /// The case must outlive this. Throws ConfigError where Nusselt numbers have no conductivity to
+  /// count in.
+  HeatTransfer(const TransferParts& parts, const cfd::GasCase& gas_case);
 
-  /// Throws on all ranks alike where the gas has a temperature and particles have none. Collective.
-  void check(const ParticleView& view) const;
+  /// Where the gas has a temperature and particles have none; else empty.
+  [[nodiscard]] std::string complaint_about(const ParticleView& view) const;
 
   // Both ways, around a gas step.
   /// Conductance between gas and every particle, and what the gas is to be charged for it.
@@ -42,14 +41,9 @@ private:
   static Lanes response(const Lanes& conductance, const ParticleView& view, std::size_t first,
                         std::size_t count, double interval);
 
-  const CouplingOptions& options_;
+  const TransferParts parts_;
   const cfd::GasCase& gas_case_;
-  const cfd::GasSolver& gas_;
-  GridTransfer& transfer_;
-  const GasAtParticles& at_particles_;
-  Charges& charges_;
   AnyNusseltLaw nusselt_;
-  double particles_a_parcel_;
   cfd::HeatExchange on_gas_; ///< empty without an energy equation, and unless both ways
 };
 

@@ -19,11 +19,11 @@ LatticeAxis::LatticeAxis(const std::vector<double>& nodes, bool periodic)
   uniform_ = off < 0.01;
   equal_ = off < 1e-12 * cells_;
   if (equal_ && (periodic || cells_ > 1))
-    pairs_ = Pairs{.first = nodes.front(),
-                   .last = nodes.back(),
-                   .per_length = per_length_,
-                   .least = periodic ? -1. : 0.,
-                   .most = periodic ? cells_ : cells_ - 2.};
+    pairs_ = LinearPlace{.first = nodes.front(),
+                         .last = nodes.back(),
+                         .per_length = per_length_,
+                         .least = periodic ? -1. : 0.,
+                         .most = periodic ? cells_ : cells_ - 2.};
 }
 
 LatticeLocator::LatticeLocator(const cfd::Lattice& lattice) {
@@ -44,23 +44,6 @@ std::optional<CellRow<2>> LatticeAxis::searched_row(double x) const {
     return inner(lower, 0);
   const double below = centre(lower), above = centre(lower + 1);
   return CellRow<2>{lower, {(x - below) / (above - below)}};
-}
-
-bool LatticeAxis::Pairs::rows(Pairs pairs, const double* x, std::size_t count, int* lower,
-                              double* upper) {
-  int outside = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double xi = x[3 * i];
-    outside |= int(!(xi >= pairs.first)) | int(!(xi <= pairs.last));
-    const CellRow<2> row = pairs.row(xi);
-    lower[i] = row.lowest;
-    upper[i] = row.others[0];
-  }
-  return outside == 0;
-}
-
-bool LatticeAxis::linear_rows(const double* x, std::size_t count, int* lower, double* upper) const {
-  return pairs_ && Pairs::rows(*pairs_, x, count, lower, upper);
 }
 
 } // namespace granflux::coupling

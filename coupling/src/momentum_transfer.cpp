@@ -14,15 +14,11 @@
 
 namespace granflux::coupling {
 
-MomentumTransfer::MomentumTransfer(const CouplingOptions& options, const cfd::Mesh& mesh,
-                                   const cfd::GasSolver& gas, GridTransfer& transfer,
-                                   const GasAtParticles& at_particles, Charges& charges)
-    : options_(options), gas_(gas), transfer_(transfer), at_particles_(at_particles),
-      charges_(charges), drag_(DragLaws::make("drag", options.drag)),
-      particles_a_parcel_(std::pow(options.coarse_graining, 3)) {
-  if (!options.effects.two_way)
+MomentumTransfer::MomentumTransfer(const TransferParts& parts)
+    : parts_(parts), drag_(DragLaws::make("drag", parts.options.drag)) {
+  if (!parts_.options.effects.two_way)
     return;
-  on_gas_ = cfd::make_exchange(mesh);
+  on_gas_ = cfd::make_exchange(parts_.gas.mesh());
   for (cfd::Field& fraction : on_gas_.pressure_fraction)
     fraction.fill(1); // as it stays where gas and particles exert no force
 }
@@ -30,8 +26,9 @@ MomentumTransfer::MomentumTransfer(const CouplingOptions& options, const cfd::Me
 /// Drag coefficients [kg/s], and what is to be known of them.
 template <class Law>
 Lanes MomentumTransfer::drag_of(const Law& law, const SeenBlock& seen, ExchangeSums& mine) const {
-  const double stokes = particles_a_parcel_ * 3 * std::numbers::pi * gas_.fluid().viscosity;
-  const bool all_pressure_on_gas = options_.model == MomentumModel::b;
+  const double stokes =
+      parts_.particles_a_parcel() * 3 * std::numbers::pi * parts_.gas.fluid().viscosity;
+  const bool all_pressure_on_gas = parts_.options.model == MomentumModel::b;
   const auto in = [&](std::size_t i) {
     return DragInput{.reynolds = seen.reynolds[i], .void_fraction = seen.void_fraction[i]};
   };
@@ -50,11 +47,11 @@ ExchangeSums MomentumTransfer::charge(const ParticleView& view, double interval)
 
 template <class Law>
 ExchangeSums MomentumTransfer::charge(const Law& law, const ParticleView& view, double interval) {
-  const bool at_once = options_.drag_treatment != DragTreatment::implicit_in_both;
+  const bool at_once = parts_.options.drag_treatment != DragTreatment::implicit_in_both;
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
     Lanes b{}, effective{};
     if constexpr (!std::is_same_v<Law, NoDrag>) {
-      b = drag_of(law, at_particles_.see_before(view, first, count), mine);
+      b = drag_of(law, parts_.at_particles.see_before(view, first, count), mine);
       Lanes lambda{};
       for (std::size_t i = 0; i < count; ++i)
         if (view.fixed.empty() || !view.fixed[first + i])
@@ -65,25 +62,25 @@ ExchangeSums MomentumTransfer::charge(const Law& law, const ParticleView& view, 
     VectorLanes handed_over;
     for (std::size_t i = 0; i < particles_a_block; ++i) {
       const std::size_t p = first + i;
-      if (i >= count || !transfer_.placed(p)) {
+      if (i >= count || !parts_.transfer.placed(p)) {
         handed_over.set(i, {});
         if (i < count) {
           view.fluid[p] = {};
-          if (charges_.forces())
-            std::fill_n(charges_.momentum(p), 4, 0);
+          if (parts_.charges.forces())
+            std::fill_n(parts_.charges.momentum(p), 4, 0);
         }
         continue;
       }
       FluidState& state = view.fluid[p];
-      state.void_fraction = at_particles_.void_fraction(p);
+      state.void_fraction = parts_.at_particles.void_fraction(p);
       if constexpr (!std::is_same_v<Law, NoDrag>)
         state.drag_coefficient = b[i];
       const Vec3 hand_over = state.impulse - state.booked;
-      const Vec3 still = explicit_drag() ? at_particles_.velocity_before(p) : Vec3{};
+      const Vec3 still = explicit_drag() ? parts_.at_particles.velocity_before(p) : Vec3{};
       const Vec3 source = effective[i] * (view.velocity[p] - still) - hand_over / interval;
-      if (charges_.forces())
+      if (parts_.charges.forces())
         std::ranges::copy(std::array{effective[i], source.x, source.y, source.z},
-                          charges_.momentum(p));
+                          parts_.charges.momentum(p));
       handed_over.set(i, hand_over);
     }
     mine.handed_over += handed_over.sum();
@@ -94,10 +91,10 @@ ExchangeSums MomentumTransfer::charge(const Law& law, const ParticleView& view, 
 
 void MomentumTransfer::hand_to_gas(const cfd::BlockFields& void_fraction, double interval,
                                    ExchangeSums& sums) {
-  const auto& work = transfer_.work;
+  const auto& work = parts_.transfer.work;
   const bool gas_bears_all =
-      options_.model == MomentumModel::b || !options_.effects.pressure_gradient;
-  const cfd::Mesh& mesh = gas_.mesh();
+      parts_.options.model == MomentumModel::b || !parts_.options.effects.pressure_gradient;
+  const cfd::Mesh& mesh = parts_.gas.mesh();
   for (std::size_t b = 0; b < mesh.local.size(); ++b)
     cfd::for_cells(mesh.local[b].layout, [&](std::ptrdiff_t c) {
       on_gas_.drag_coefficient[b][c] = work[0][b][c];
@@ -113,32 +110,32 @@ void MomentumTransfer::hand_to_gas(const cfd::BlockFields& void_fraction, double
 /// velocity, neither here nor in the pressure equation.
 void MomentumTransfer::take_drag_at_start(const cfd::BlockFields& void_fraction, double interval,
                                           ExchangeSums& sums) {
-  const cfd::Mesh& mesh = gas_.mesh();
+  const cfd::Mesh& mesh = parts_.gas.mesh();
   for (std::size_t b = 0; b < mesh.local.size(); ++b) {
     const double largest = cfd::max_cells(mesh.local[b].layout, 0, [&](std::ptrdiff_t c) {
       return on_gas_.drag_coefficient[b][c] / void_fraction[b][c];
     });
     sums.gas_drag_number_max =
-        std::max(sums.gas_drag_number_max, interval * largest / gas_.fluid().density);
+        std::max(sums.gas_drag_number_max, interval * largest / parts_.gas.fluid().density);
     on_gas_.drag_coefficient[b].fill(0);
   }
 }
 
 ExchangeSums MomentumTransfer::book(const ParticleView& view, double interval) {
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
-    GasAtParticles::Push seen = at_particles_.push(view, first, count);
+    GasAtParticles::Push seen = parts_.at_particles.push(view, first, count);
     VectorLanes drag_force;
     Lanes effective;
     for (std::size_t i = 0; i < particles_a_block; ++i) {
       const std::size_t p = first + i;
       effective[i] = 0;
       drag_force.set(i, {});
-      if (i >= count || !transfer_.placed(p))
+      if (i >= count || !parts_.transfer.placed(p))
         continue;
-      effective[i] = charges_.momentum(p)[0];
+      effective[i] = parts_.charges.momentum(p)[0];
       drag_force.set(i, view.velocity[p]);
       if (explicit_drag())
-        seen.velocity.set(i, at_particles_.velocity_before(p));
+        seen.velocity.set(i, parts_.at_particles.velocity_before(p));
     }
     VectorLanes booked;
     for (int d = 0; d < 3; ++d) {
@@ -148,7 +145,7 @@ ExchangeSums MomentumTransfer::book(const ParticleView& view, double interval) {
           lanes([&](std::size_t i) { return interval * (force[i] + seen.pressure_force[d][i]); });
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (!transfer_.placed(first + i))
+      if (!parts_.transfer.placed(first + i))
         continue;
       FluidState& state = view.fluid[first + i];
       state.gas_velocity = seen.velocity.at(i);
@@ -181,14 +178,14 @@ template <class Law>
 ExchangeSums MomentumTransfer::act(const Law& law, const ParticleView& view,
                                    double interval) const {
   const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
-    const GasAtParticles::Push seen = at_particles_.push(view, first, count);
+    const GasAtParticles::Push seen = parts_.at_particles.push(view, first, count);
     Lanes b;
     if constexpr (!std::is_same_v<Law, NoDrag>)
-      b = drag_of(law, at_particles_.see_alone(view, first, count), mine);
+      b = drag_of(law, parts_.at_particles.see_alone(view, first, count), mine);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t p = first + i;
       FluidState& state = view.fluid[p];
-      if (!transfer_.placed(p)) {
+      if (!parts_.transfer.placed(p)) {
         state = {};
         continue;
       }
@@ -211,7 +208,7 @@ ExchangeSums MomentumTransfer::act(const Law& law, const ParticleView& view,
 auto MomentumTransfer::response(bool some_fixed) const
     -> std::variant<ResponseIs<Response::exact>, ResponseIs<Response::exact_unless_fixed>,
                     ResponseIs<Response::at_once>> {
-  if (options_.drag_treatment != DragTreatment::implicit_in_both)
+  if (parts_.options.drag_treatment != DragTreatment::implicit_in_both)
     return ResponseIs<Response::at_once>();
   if (some_fixed)
     return ResponseIs<Response::exact_unless_fixed>();
@@ -220,7 +217,9 @@ auto MomentumTransfer::response(bool some_fixed) const
 
 /// Of a unit of volume.
 Vec3 MomentumTransfer::weight_of_gas() const {
-  return options_.effects.pressure_gradient ? -gas_.fluid().density * gas_.fluid().gravity : Vec3{};
+  return parts_.options.effects.pressure_gradient
+             ? -parts_.gas.fluid().density * parts_.gas.fluid().gravity
+             : Vec3{};
 }
 
 Vec3 MomentumTransfer::apply(const ParticleView& view, double dt, double share) const {
@@ -228,7 +227,7 @@ Vec3 MomentumTransfer::apply(const ParticleView& view, double dt, double share) 
     return condition ? std::variant<std::false_type, std::true_type>(std::true_type{})
                      : std::false_type{};
   };
-  const ExchangeEffects& effects = options_.effects;
+  const ExchangeEffects& effects = parts_.options.effects;
   return std::visit(
       [&](auto how, auto drag, auto pressure, auto two_way) {
         return apply<how, drag, pressure, two_way>(view, dt, share);

@@ -8,8 +8,7 @@
 #include <granflux/coupling/drag/laws.hpp>
 #include <granflux/coupling/ledger.hpp>
 
-#include "charges.hpp"
-#include "gas_at_particles.hpp"
+#include "transfer_parts.hpp"
 
 namespace granflux::coupling {
 
@@ -17,9 +16,7 @@ namespace granflux::coupling {
 /// books of it, and the force in every particle step. T is the coupling interval [s].
 class MomentumTransfer {
 public:
-  /// All but `mesh` must outlive this.
-  MomentumTransfer(const CouplingOptions& options, const cfd::Mesh& mesh, const cfd::GasSolver& gas,
-                   GridTransfer& transfer, const GasAtParticles& at_particles, Charges& charges);
+  explicit MomentumTransfer(const TransferParts& parts);
 
   // Both ways, around a gas step.
   /// Drag coefficient of every particle, and what the gas is to be charged for it.
@@ -50,10 +47,10 @@ private:
 
   /// Calls use(law) with the law of drag, or NoDrag where there is none.
   template <class Use> auto with_drag(Use&& use) const {
-    return options_.effects.drag ? std::visit(use, drag_) : use(NoDrag{});
+    return parts_.options.effects.drag ? std::visit(use, drag_) : use(NoDrag{});
   }
   [[nodiscard]] bool explicit_drag() const {
-    return options_.drag_treatment == DragTreatment::explicit_in_both;
+    return parts_.options.drag_treatment == DragTreatment::explicit_in_both;
   }
   template <class Law>
   Lanes drag_of(const Law& law, const SeenBlock& seen, ExchangeSums& mine) const;
@@ -70,13 +67,8 @@ private:
   Vec3 apply(const ParticleView& view, double dt, double share) const;
   [[nodiscard]] Vec3 weight_of_gas() const;
 
-  const CouplingOptions& options_;
-  const cfd::GasSolver& gas_;
-  GridTransfer& transfer_;
-  const GasAtParticles& at_particles_;
-  Charges& charges_;
+  const TransferParts parts_;
   AnyDragLaw drag_;
-  double particles_a_parcel_;
   cfd::MomentumExchange on_gas_; ///< empty unless both ways
 };
 

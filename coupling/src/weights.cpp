@@ -7,6 +7,17 @@
 
 namespace granflux::coupling {
 
+std::size_t Weights::most_particles(const AnyKernel& any_kernel, const AnyLocator& any_locator) {
+  return std::visit(
+      []<class Kernel, class Locator>(const Kernel&, const Locator&) {
+        if constexpr (has_cube<Kernel, Locator>)
+          return CubeShares<Kernel::width>::most_particles;
+        else
+          return ShareLists::most_particles;
+      },
+      any_kernel, any_locator);
+}
+
 void Weights::build(const AnyKernel& any_kernel, const AnyLocator& any_locator,
                     std::span<const Vec3> position, std::span<const double> radius,
                     std::span<const std::uint8_t> coupled) {

@@ -259,13 +259,13 @@ void WindowExchange::deposit(std::span<const double> from, std::span<cfd::BlockF
   MPI_Waitall(int(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
 }
 
-void WindowExchange::sample(std::span<const cfd::BlockFields* const> from, std::span<double> to) {
+void WindowExchange::sample(std::span<const cfd::Field* const> from, std::size_t each,
+                            std::span<double> to) {
   int me = 0;
   MPI_Comm_rank(mesh_.comm, &me);
-  const std::size_t each = from.size();
   const auto read = [&](int b, std::ptrdiff_t in_block, std::size_t n, double* values) {
     for (std::size_t f = 0; f < each; ++f) {
-      const double* cells = (*from[f])[std::size_t(b)].data() + in_block;
+      const double* cells = from[std::size_t(b) * each + f]->data() + in_block;
       for (std::size_t i = 0; i < n; ++i)
         values[i * each + f] = cells[i];
     }

@@ -233,6 +233,25 @@ TEST(Exchange, RestartContinuesBitForBit) {
   EXPECT_EQ(run(false), run(true));
 }
 
+TEST(Exchange, RefusesMoreParticlesThanARankCanNumberOnAllRanks) {
+  coupling::CouplingOptions options;
+  options.void_fraction = "divided";
+  coupling::Coupler coupler(upflow(true), options, MPI_COMM_WORLD);
+  const Vec3 alone;
+  coupling::ParticleView view; // nothing of it is read before it is counted
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0)
+    view.position = {&alone, (std::size_t{1} << 27) + 1};
+  try {
+    coupler.initialise(view, 0);
+    FAIL() << "no error";
+  } catch (const ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("134217729 particles on one rank"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("134217728 at most"), std::string::npos);
+  }
+}
+
 TEST(Exchange, NamesTheParticleOutsideTheGridOnAllRanks) {
   coupling::Coupler coupler(upflow(true), {}, MPI_COMM_WORLD);
   FakeHost host({0, 0, 0}, box, {true, false, false}, MPI_COMM_WORLD);

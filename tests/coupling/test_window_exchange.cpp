@@ -63,8 +63,10 @@ TEST(WindowExchange, SamplesTheCellsUnderEachWindow) {
       window = {}; // no particles
     exchange.bind(window);
     std::vector<double> values(2 * window.size(), -1);
-    const std::array<const cfd::BlockFields*, 2> fields{&name, &twice};
-    exchange.sample(fields, values);
+    std::vector<const cfd::Field*> fields;
+    for (std::size_t b = 0; b < mesh.local.size(); ++b)
+      fields.insert(fields.end(), {&name[b], &twice[b]});
+    exchange.sample(fields, 2, values);
     for (int k = window.lo[2]; k < window.hi[2]; ++k)
       for (int j = window.lo[1]; j < window.hi[1]; ++j)
         for (int i = window.lo[0]; i < window.hi[0]; ++i) {
@@ -98,8 +100,10 @@ TEST(WindowExchange, DepositIsTheAdjointOfSampling) {
       sums[0] += cfd::sum_cells(mesh.local[b].layout,
                                 [&](std::ptrdiff_t c) { return deposited[b][c] * field[b][c]; });
     std::vector<double> sampled(window.size());
-    const std::array<const cfd::BlockFields*, 1> from{&field};
-    exchange.sample(from, sampled);
+    std::vector<const cfd::Field*> from;
+    for (const cfd::Field& block : field)
+      from.push_back(&block);
+    exchange.sample(from, 1, sampled);
     for (std::size_t c = 0; c < given.size(); ++c)
       sums[1] += given[c] * sampled[c];
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm);

@@ -12,9 +12,12 @@
 
 #include <granflux/coupling/cell_order.hpp>
 #include <granflux/coupling/kernel/spline_kernel.hpp>
+#include <granflux/coupling/packed_numbers.hpp>
 #include <granflux/coupling/placing.hpp>
 
 namespace granflux::coupling {
+
+class LinearPlaces;
 
 /// Shares of particles in the n x n x n cells around them, as SplineKernel has them: of each
 /// particle only the lowest of its cells and n - 1 shares along x, y, z are kept; the products are
@@ -22,6 +25,8 @@ namespace granflux::coupling {
 /// for n = 2 and 64 for n = 3, where lists of cells and shares take 200 and 650.
 template <int n> class CubeShares {
 public:
+  static constexpr std::size_t most_particles = std::size_t{1} << 32;
+
   /// `placed`[p] is set to whether p is coupled and inside the grid.
   Placing build(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
                 const ParticlesToPlace& particles, std::span<std::uint8_t> placed);
@@ -33,23 +38,8 @@ public:
 private:
   /// Particles of one cell lie apart in memory: what is known to be needed soon is fetched ahead.
   static constexpr std::size_t ahead = 24;
-  static constexpr std::size_t block = 128; ///< particles whose cells are found together
   static constexpr std::size_t cells = n * n * n;
   using Others = std::array<typename CellRow<n>::Others, 3>;
-  using Shares = std::array<double, cells>;
-  [[nodiscard]] static Shares products(const Others& others) {
-    const auto x = CellRow<n>::all(others[0]), y = CellRow<n>::all(others[1]),
-               z = CellRow<n>::all(others[2]);
-    Shares shares;
-    std::size_t c = 0;
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t j = 0; j < n; ++j) {
-        const double across = y[j] * z[k];
-        for (std::size_t i = 0; i < n; ++i)
-          shares[c++] = x[i] * across;
-      }
-    return shares;
-  }
   template <std::size_t numbers>
   void deposit_row(std::size_t begin, std::size_t end, const double* value, double* field) const;
 
@@ -58,8 +48,8 @@ private:
   using Moves = std::vector<CellOrder::Move>;
   void set_lowest(std::size_t p, std::uint32_t cell, Moves& moves);
   bool place(std::size_t p, const CellCube<n>& cube, const Window& lowest, Moves& moves);
-  bool place_block(const LatticeLocator& lattice, const Vec3* position, std::size_t first,
-                   std::size_t count, const Window& lowest, Moves& moves);
+  std::size_t place_together(const std::optional<LinearPlaces>& places, const Vec3* position,
+                             std::size_t first, std::size_t count, Moves& moves);
   std::optional<Placing> place_all(const SplineKernel<n>& kernel, const LatticeLocator& lattice,
                                    const ParticlesToPlace& particles,
                                    std::span<std::uint8_t> placed);
@@ -111,21 +101,34 @@ void CubeShares<n>::deposit_row(std::size_t begin, std::size_t end, const double
     const std::size_t first = by_cell_.begin(cell), last = by_cell_.end(cell);
     if (first == last)
       continue;
-    double sum[numbers][cells] = {};
+    std::array<PackedNumbers<numbers>, cells> sum;
     for (std::size_t s = first; s < last; ++s) {
       if (s + ahead < particles.size()) {
         __builtin_prefetch(&others_[particles[s + ahead]]);
         __builtin_prefetch(value + numbers * particles[s + ahead]);
       }
-      const Shares share = products(others_[particles[s]]);
-      const double* const q = value + numbers * particles[s];
-      for (std::size_t v = 0; v < numbers; ++v)
-        for (std::size_t c = 0; c < cells; ++c)
-          sum[v][c] += share[c] * q[v];
+      const Others& others = others_[particles[s]];
+      const auto x = CellRow<n>::all(others[0]), y = CellRow<n>::all(others[1]),
+                 z = CellRow<n>::all(others[2]);
+      PackedNumbers<numbers> q, of_level, of_row;
+      q.load(value + numbers * particles[s]);
+      auto cell_sum = sum.begin();
+      for (const double share_z : z) {
+        of_level.set(q, share_z);
+        for (const double share_y : y) {
+          of_row.set(of_level, share_y);
+          for (const double share_x : x)
+            (cell_sum++)->add(of_row, share_x);
+        }
+      }
     }
-    for (std::size_t c = 0; c < cells; ++c)
-      for (std::size_t v = 0; v < numbers; ++v)
-        field[numbers * (cell + offset_[c]) + v] += sum[v][c];
+    for (std::size_t c = 0; c < cells; ++c) {
+      double* const at = field + numbers * (cell + offset_[c]);
+      PackedNumbers<numbers> before;
+      before.load(at);
+      sum[c].add(before);
+      sum[c].store(at);
+    }
   }
 }
 
@@ -136,20 +139,32 @@ void CubeShares<n>::sample(std::span<const T> field, std::span<T> value) const {
   constexpr std::size_t numbers = sizeof(T) / sizeof(double);
   const auto* from = reinterpret_cast<const double*>(field.data());
   auto* to = reinterpret_cast<double*>(value.data());
-#pragma omp parallel for schedule(static)
+  std::array<std::size_t, cells> offset;
+  for (std::size_t c = 0; c < cells; ++c)
+    offset[c] = numbers * offset_[c];
+#pragma omp parallel for schedule(static) firstprivate(offset)
   for (std::size_t p = 0; p < lowest_.size(); ++p) {
-    std::array<double, numbers> sum{};
+    PackedNumbers<numbers> sum, of_level, of_row, of_cell;
     if (lowest_[p] != CellOrder::nowhere) {
-      const Shares share = products(others_[p]);
-#pragma GCC unroll 27
-      for (std::size_t c = 0; c < cells; ++c) {
-        const double* const q = from + numbers * (lowest_[p] + offset_[c]);
-        for (std::size_t v = 0; v < numbers; ++v)
-          sum[v] += share[c] * q[v];
+      const double* const lowest = from + numbers * lowest_[p];
+      const Others& others = others_[p];
+      const auto x = CellRow<n>::all(others[0]), y = CellRow<n>::all(others[1]),
+                 z = CellRow<n>::all(others[2]);
+#pragma GCC unroll 3
+      for (std::size_t k = 0; k < n; ++k) {
+#pragma GCC unroll 3
+        for (std::size_t j = 0; j < n; ++j) {
+#pragma GCC unroll 3
+          for (std::size_t i = 0; i < n; ++i) {
+            of_cell.load(lowest + offset[i + n * (j + n * k)]);
+            i == 0 ? of_row.set(of_cell, x[0]) : of_row.add(of_cell, x[i]);
+          }
+          j == 0 ? of_level.set(of_row, y[0]) : of_level.add(of_row, y[j]);
+        }
+        k == 0 ? sum.set(of_level, z[0]) : sum.add(of_level, z[k]);
       }
     }
-    for (std::size_t v = 0; v < numbers; ++v)
-      to[numbers * p + v] = sum[v];
+    sum.store(to + numbers * p);
   }
 }
 

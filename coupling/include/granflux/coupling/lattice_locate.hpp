@@ -14,6 +14,29 @@
 
 namespace granflux::coupling {
 
+/// LatticeAxis::row<2>() along a direction of equal cells, of points inside the box: by arithmetic
+/// alone, and without branches, for next to walls, in thin beds everywhere, they would be foretold
+/// wrongly as often as not.
+struct LinearPlace {
+  double first = 0, last = 0; ///< nodes [m]
+  double per_length = 0;      ///< cells per metre
+  double least = 0, most = 0; ///< lower cells, as numbers
+
+  [[nodiscard]] CellRow<2> row(double x) const {
+    const double at = place(x, first, per_length, least, most), below = lower(at, most);
+    return {int(below), {at - below}};
+  }
+  // Its parts. A point next to a wall counts as at the centre of the cell.
+  static double place(double x, double first, double per_length, double least, double most) {
+    const double at = (x - first) * per_length - 0.5, above = at > least ? at : least;
+    return above < most + 1 ? above : most + 1;
+  }
+  static double lower(double place, double most) {
+    const double below = std::floor(place);
+    return below < most ? below : most;
+  }
+};
+
 /// Cells along one direction of the lattice, made ready for many look-ups.
 class LatticeAxis {
 public:
@@ -41,12 +64,10 @@ public:
   /// the cell before it. Without a period the cells are inside the grid as far as it has three;
   /// beyond, shares are 0.
   template <int n> [[nodiscard]] std::optional<CellRow<n>> row(double x) const;
-  /// row<2> of `count` points, their coordinates 3 numbers apart, on vector registers. False where
-  /// that does not do: cells of several lengths, or a point outside the box.
-  [[nodiscard]] bool linear_rows(const double* x, std::size_t count, int* lower,
-                                 double* upper) const;
   /// Unwrapped index to 0 <= i < cells; the identity where the direction is not periodic.
   [[nodiscard]] int wrap(int i) const;
+  /// Where cells are equal, and two at least without a period.
+  [[nodiscard]] const std::optional<LinearPlace>& pairs() const { return pairs_; }
   /// Centre of a cell [m]; along a periodic direction of any unwrapped one.
   [[nodiscard]] double centre(int i) const;
   /// The image of x at most one period outside the box; x itself where it already is.
@@ -70,26 +91,7 @@ private:
   bool equal_ = false;    ///< to rounding: nodes need no look
   double per_length_ = 0; ///< cells per metre where uniform
 
-  /// linear_row() inside the box by arithmetic alone, and without branches: next to walls, in thin
-  /// beds everywhere, they would be foretold wrongly as often as not.
-  struct Pairs {
-    double first = 0, last = 0; ///< nodes [m]
-    double per_length = 0;
-    double least = 0, most = 0; ///< lower cells, as numbers
-    [[nodiscard]] CellRow<2> row(double x) const {
-      const double place = (x - first) * per_length - 0.5;
-      double lower = std::floor(place);
-      lower = lower > least ? lower : least;
-      lower = lower < most ? lower : most;
-      double upper_share = place - lower;
-      upper_share = upper_share > 0 ? upper_share : 0;
-      upper_share = upper_share < 1 ? upper_share : 1;
-      return {int(lower), {upper_share}};
-    }
-    /// linear_rows(), `pairs` a copy that nothing else can refer to.
-    static bool rows(Pairs pairs, const double* x, std::size_t count, int* lower, double* upper);
-  };
-  std::optional<Pairs> pairs_; ///< where cells are equal, and two at least without a period
+  std::optional<LinearPlace> pairs_; ///< where cells are equal, and two at least without a period
 };
 
 /// Finds the cell of a point on the lattice: arithmetic on uniform directions, binary search on

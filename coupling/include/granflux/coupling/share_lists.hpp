@@ -15,15 +15,18 @@
 
 #include <granflux/coupling/cell_order.hpp>
 #include <granflux/coupling/kernel/kernels.hpp>
+#include <granflux/coupling/packed_numbers.hpp>
 #include <granflux/coupling/placing.hpp>
 
 namespace granflux::coupling {
 
 /// Shares of particles in any cells, as numbers of equal parts: of each particle its entries, one a
 /// cell, and the entries in the order of their cells. From build to build all are kept but those of
-/// particles that have gone too far for their shares. For up to 134 million particles a rank.
+/// particles that have gone too far for their shares.
 class ShareLists {
 public:
+  static constexpr std::size_t most_particles = std::size_t{1} << 27;
+
   /// `placed`[p] is set to whether p is coupled and inside the grid.
   template <class Kernel, class Locator>
   Placing build(const Kernel& kernel, const Locator& locator, const ParticlesToPlace& particles,
@@ -36,6 +39,7 @@ public:
 private:
   static constexpr unsigned row_bits = 5;
   static_assert(1u << row_bits >= most_cells_of_a_particle);
+  static_assert(most_particles << row_bits == std::size_t{1} << 32);
   /// Number of the k-th entry of particle p in by_cell_.
   static std::uint32_t item(std::size_t p, std::size_t k) {
     return std::uint32_t(p << row_bits | k);
@@ -216,16 +220,14 @@ template <class T> void ShareLists::deposit(std::span<const T> value, std::span<
   const auto cells = window_.size();
 #pragma omp parallel for schedule(guided)
   for (std::size_t c = 0; c < cells; ++c) {
-    std::array<double, numbers> sum{};
+    PackedNumbers<numbers> sum, q;
     const std::size_t end = by_cell_.end(c);
     for (std::size_t s = by_cell_.begin(c); s < end; ++s) {
       const std::size_t p = items[s] >> row_bits, k = items[s] & ((1u << row_bits) - 1);
-      const double share = share_[parts_[at(p, k)]];
-      for (std::size_t v = 0; v < numbers; ++v)
-        sum[v] += share * from[numbers * p + v];
+      q.load(from + numbers * p);
+      sum.add(q, share_[parts_[at(p, k)]]);
     }
-    for (std::size_t v = 0; v < numbers; ++v)
-      to[numbers * c + v] = sum[v];
+    sum.store(to + numbers * c);
   }
 }
 
@@ -237,21 +239,18 @@ template <class T> void ShareLists::sample(std::span<const T> field, std::span<T
   auto* to = reinterpret_cast<double*>(value.data());
 #pragma omp parallel for schedule(static)
   for (std::size_t p = 0; p < particles_; ++p) {
-    std::array<double, numbers> sum{};
+    PackedNumbers<numbers> sum, q;
     if (entries_[p] > 0) {
       const auto add = [&](std::size_t k) {
-        const double* const q = from + numbers * cell_[at(p, k)];
-        const double share = share_[parts_[at(p, k)]];
-        for (std::size_t v = 0; v < numbers; ++v)
-          sum[v] += share * q[v];
+        q.load(from + numbers * cell_[at(p, k)]);
+        sum.add(q, share_[parts_[at(p, k)]]);
       };
       add(0);
       add(1);
       for (std::size_t k = 2; k < entries_[p]; ++k)
         add(k);
     }
-    for (std::size_t v = 0; v < numbers; ++v)
-      to[numbers * p + v] = sum[v];
+    sum.store(to + numbers * p);
   }
 }
 

@@ -24,8 +24,13 @@ namespace granflux::coupling {
 /// * double.
 class Weights {
 public:
+  /// That can be numbered together with their cells.
+  [[nodiscard]] static std::size_t most_particles(const AnyKernel& kernel,
+                                                  const AnyLocator& locator);
+
   /// Renews the shares. Particles whose `coupled` entry is 0 (if given) are left out; so are those
-  /// with their centre outside the grid, which are counted. The kernel must serve the locator.
+  /// with their centre outside the grid, which are counted. The kernel must serve the locator, and
+  /// particles be no more than most_particles().
   void build(const AnyKernel& kernel, const AnyLocator& locator, std::span<const Vec3> position,
              std::span<const double> radius, std::span<const std::uint8_t> coupled = {});
 

@@ -27,8 +27,9 @@ public:
   /// for each cell of the window; they go in one message to each owner. Collective.
   void deposit(std::span<const double> from, std::span<cfd::BlockFields* const> to);
 
-  /// Copies block fields to the windows above them: from.size() numbers a cell. Collective.
-  void sample(std::span<const cfd::BlockFields* const> from, std::span<double> to);
+  /// Copies block fields to the windows above them, `each` numbers a cell: `from` names as many
+  /// fields of each local block, block after block. Collective.
+  void sample(std::span<const cfd::Field* const> from, std::size_t each, std::span<double> to);
 
   /// Numbers that this rank has sent to others so far.
   [[nodiscard]] long numbers_sent() const { return numbers_sent_; }
