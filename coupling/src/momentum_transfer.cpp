@@ -75,13 +75,12 @@ ExchangeSums MomentumTransfer::charge(const Law& law, const ParticleView& view, 
       state.void_fraction = parts_.at_particles.void_fraction(p);
       if constexpr (!std::is_same_v<Law, NoDrag>)
         state.drag_coefficient = b[i];
-      const Vec3 hand_over = state.impulse - state.booked;
       const Vec3 still = explicit_drag() ? parts_.at_particles.velocity_before(p) : Vec3{};
-      const Vec3 source = effective[i] * (view.velocity[p] - still) - hand_over / interval;
+      const Vec3 source = effective[i] * (view.velocity[p] - still) - state.hand_over / interval;
       if (parts_.charges.forces())
         std::ranges::copy(std::array{effective[i], source.x, source.y, source.z},
                           parts_.charges.momentum(p));
-      handed_over.set(i, hand_over);
+      handed_over.set(i, state.hand_over);
     }
     mine.handed_over += handed_over.sum();
     mine.exchanged += handed_over.sum_of_norms();
@@ -150,8 +149,7 @@ ExchangeSums MomentumTransfer::book(const ParticleView& view, double interval) {
       FluidState& state = view.fluid[first + i];
       state.gas_velocity = seen.velocity.at(i);
       state.pressure_force = seen.pressure_force.at(i);
-      state.impulse = {};
-      state.booked = booked.at(i);
+      state.hand_over = -booked.at(i);
     }
     mine.drag += drag_force.sum();
     mine.pressure_force += seen.pressure_force.sum();
@@ -268,7 +266,7 @@ Vec3 MomentumTransfer::apply(const ParticleView& view, double dt, double share) 
     view.force[p] += state.force;
     if constexpr (two_way) {
       const Vec3 impulse = share * dt * exchanged;
-      state.impulse += impulse;
+      state.hand_over += impulse;
       mine += impulse;
     }
   });
@@ -282,7 +280,7 @@ Vec3 MomentumTransfer::unapply(const ParticleView& view, double dt, double share
       return;
     const Vec3 exchanged = state.force - sphere_volume(view.radius[p]) * weight;
     const Vec3 impulse = -share * dt * exchanged;
-    state.impulse += impulse;
+    state.hand_over += impulse;
     mine += impulse;
   });
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "void_fraction.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <granflux/cfd/error.hpp>
@@ -22,10 +23,14 @@ VoidFraction::VoidFraction(const cfd::Mesh& mesh, double floor)
 
 void VoidFraction::find(const ParticleView& view, GridTransfer& transfer, ExchangeSums& sums) {
   volume_.resize(view.size());
-  sums += sum_particles<ExchangeSums>(view.size(), [&](std::size_t p, ExchangeSums& mine) {
-    volume_[p] = transfer.placed(p) ? sphere_volume(view.radius[p]) : 0;
-    mine.particle_volume += volume_[p];
-  });
+  const auto of_block = [&](std::size_t first, std::size_t count, ExchangeSums& mine) {
+    Lanes volume{};
+    for (std::size_t i = 0; i < count; ++i)
+      volume[i] = transfer.placed(first + i) ? sphere_volume(view.radius[first + i]) : 0;
+    std::copy_n(volume.of.begin(), count, volume_.begin() + std::ptrdiff_t(first));
+    mine.particle_volume += sum(volume);
+  };
+  sums += sum_blocks<ExchangeSums>(view.size(), of_block);
   sums.particles = double(transfer.weights().placed_count());
   sums.outside = double(transfer.weights().outside_count());
   transfer.deposit<1>(volume_);

@@ -19,12 +19,12 @@ struct FluidState {
   Vec3 gas_velocity;           ///< at the particle [m/s]
   Vec3 pressure_force;         ///< -V grad p of the dynamic pressure, 0 in model B [N]
   Vec3 force;                  ///< fluid force applied last: drag, pressure and buoyancy [N]
-  /// Applied since the last coupling step, buoyancy left out: the hydrostatic pressure balances the
-  /// gas's own weight and is not exchanged [N s].
-  Vec3 impulse;
-  Vec3 booked; ///< taken from the gas for it at that coupling step [N s]
+  /// Impulse that it received since the last coupling step, less what was taken from the gas for it
+  /// then. Buoyancy is left out: the hydrostatic pressure balances the gas's own weight and is not
+  /// exchanged [N s].
+  Vec3 hand_over;
 };
-inline constexpr int fluid_state_doubles = 17;
+inline constexpr int fluid_state_doubles = 14;
 static_assert(sizeof(FluidState) == fluid_state_doubles * sizeof(double));
 
 /// m3, of a radius in m.
