@@ -204,7 +204,7 @@ DiagonalRange Multigrid::Impl::take(const PressureSystem& system) {
             bad += diagonal > 0 && diagonal < std::numeric_limits<double>::infinity() ? 0 : 1;
           }
         }
-#pragma omp critical
+#pragma omp critical(diagonal_range)
       {
         range.least = std::min(range.least, least);
         range.most = std::max(range.most, most);
