@@ -138,6 +138,7 @@ protected:
   [[nodiscard]] bool rests() const {
     return options().effects.given() && !options().available().any() && !steps_by_gas_;
   }
+  [[nodiscard]] bool steps_by_gas() const { return steps_by_gas_; }
   [[nodiscard]] int held() const { return held_; } ///< bits of the groups of fixed temperature
 
 private:

@@ -480,6 +480,60 @@ void FixHeat::receive_half_kick_heat() {
                      options_.contacts.damping ? heat(touch.particle, touch.damping) : 0);
 }
 
+particle_subset::HeatedParticles FixHeat::heated_particles(coupling::HeatState* gas) const {
+  return {.temperature = temperature_->vector_atom,
+          .carry = carry_->vector_atom,
+          .heat_flux = heat_flux_->vector_atom,
+          .source = source_->vector_atom,
+          .mass = atom->rmass,
+          .type = atom->type,
+          .groups = atom->mask,
+          .gas = gas};
+}
+
+particle_subset::StepPowers
+FixHeat::step_particles(const particle_subset::HeatedParticles& particles,
+                        particle_subset::Range range, HeatSums& sums) {
+  const particle_subset::HeatShown shown = this->shown();
+  const bool has_kept = has_kept_heat();
+  particle_subset::StepPowers powers;
+  particle_subset::for_each_block(range, [&](particle_subset::Range block) {
+    if (has_kept)
+      receive_kept_heat(shown, block, sums);
+    powers +=
+        step_temperature(particles, materials_.capacity, held(), step_of_temperature(), block);
+  });
+  return powers;
+}
+
+particle_subset::OwnWork* FixHeat::work_ahead() {
+  const bool contacts_are_all = touches() && !options_.near.any() && !steps_by_gas();
+  return contacts_are_all && steps_now() && !rests() && !wants_details() && !looks_at_forces()
+             ? &step_ahead_
+             : nullptr;
+}
+
+bool FixHeat::StepAhead::begin_own_work(int /*eflag*/, int /*vflag*/) {
+  threads.assign(heat.sums_.size(), {});
+  return true;
+}
+
+void FixHeat::StepAhead::own_work(int thread, particle_subset::Range block) {
+  const double start = MPI_Wtime();
+  const particle_subset::Range unseen = heat.subsets_->contacts_of(thread).unseen;
+  const particle_subset::Range range{std::max(block.begin, unseen.begin),
+                                     std::min(block.end, unseen.end)};
+  if (range.size() <= 0)
+    return;
+  OfThread& mine = threads[std::size_t(thread)];
+  mine.powers +=
+      heat.step_particles(heat.heated_particles(nullptr), range, heat.sums_[std::size_t(thread)]);
+  if (mine.done.size() == 0)
+    mine.done.begin = range.begin;
+  mine.done.end = range.end;
+  mine.seconds += MPI_Wtime() - start;
+}
+
 void FixHeat::step(coupling::HeatState* gas) {
   const double start = MPI_Wtime();
   receive_half_kick_heat();
@@ -489,29 +543,26 @@ void FixHeat::step(coupling::HeatState* gas) {
   if (options_.near.any())
     subsets_->add_near_heat(near_law_, heat_of_contacts().arrays);
   const double between = MPI_Wtime();
-  const particle_subset::HeatedParticles particles{.temperature = temperature_->vector_atom,
-                                                   .carry = carry_->vector_atom,
-                                                   .heat_flux = heat_flux_->vector_atom,
-                                                   .source = source_->vector_atom,
-                                                   .mass = atom->rmass,
-                                                   .type = atom->type,
-                                                   .groups = atom->mask,
-                                                   .gas = gas};
+  const particle_subset::HeatedParticles particles = heated_particles(gas);
   if (wants_details())
     check_time_step(particles);
-  const double dt = step_of_temperature();
   std::vector<particle_subset::StepPowers> parts(sums_.size());
-  const bool has_kept = has_kept_heat();
-  const particle_subset::HeatShown shown = this->shown();
-  particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
+  particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range left) {
     const auto thread = std::size_t(omp_get_thread_num());
-    particle_subset::for_each_block(range, [&](particle_subset::Range block) {
-      if (has_kept)
-        receive_kept_heat(shown, block, sums_[thread]);
-      parts[thread] += step_temperature(particles, materials_.capacity, held(), dt, block);
-    });
+    for (const StepAhead::OfThread& ahead : step_ahead_.threads) {
+      parts[thread] += step_particles(particles, {left.begin, std::min(ahead.done.begin, left.end)},
+                                      sums_[thread]);
+      left.begin = std::max(left.begin, ahead.done.end);
+    }
+    parts[thread] += step_particles(particles, left, sums_[thread]);
   });
   particle_subset::StepPowers stepped;
+  double seconds = MPI_Wtime() - between;
+  if (!step_ahead_.threads.empty())
+    seconds += step_ahead_.threads.front().seconds;
+  for (const StepAhead::OfThread& ahead : step_ahead_.threads)
+    stepped += ahead.powers;
+  step_ahead_.threads.clear();
   for (const auto& part : parts)
     stepped += part;
   HeatSums contacts;
@@ -526,9 +577,9 @@ void FixHeat::step(coupling::HeatState* gas) {
         .to_walls = contacts.to_walls,
         .held = stepped.held,
         .radiation = contacts.radiation},
-       dt);
+       step_of_temperature());
   near_seconds_ += between - start;
-  step_seconds_ += MPI_Wtime() - between;
+  step_seconds_ += seconds;
   particle_steps_ += double(options_.every) * atom->nlocal;
 }
 
@@ -537,8 +588,8 @@ void FixHeat::check_time_step(const particle_subset::HeatedParticles& particles)
     return;
   double largest = 0;
   particle_subset::for_each_subset(atom->nlocal, [&](particle_subset::Range range) {
-    const double number = conduction_number(shown(), particles, materials_.capacity,
-                                            step_of_temperature(), range);
+    const double number =
+        conduction_number(shown(), particles, materials_.capacity, step_of_temperature(), range);
 #pragma omp critical(granflux_conduction_number)
     largest = std::max(largest, number);
   });

@@ -17,6 +17,7 @@
 #include "particle_subset/heat_port.hpp"
 #include "particle_subset/rare_look.hpp"
 #include "particle_subset/temperature_step.hpp"
+#include "particle_subset/work_ahead.hpp"
 
 namespace LAMMPS_NS {
 class FixPropertyAtom;
@@ -36,7 +37,8 @@ class FixCouple;
 /// (docs/reference/fix_granflux_heat.md).
 class FixHeat : public driver::HeatFix<LAMMPS_NS::Fix, FixCouple>,
                 public particle_subset::HeatPort,
-                public particle_subset::RareLook {
+                public particle_subset::RareLook,
+                public particle_subset::WorkAhead {
 public:
   FixHeat(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
@@ -59,6 +61,9 @@ public:
     return (options_.near.any() && step % options_.every == 0) || looks_at_scene(step);
   }
   [[nodiscard]] bool looks_at_forces() const override;
+  /// Temperatures take their step, unless there is more to do or to look at between contacts and
+  /// them.
+  [[nodiscard]] particle_subset::OwnWork* work_ahead() override;
 
   void describe(coupling::SceneState& scene) override;
 
@@ -77,6 +82,10 @@ private:
   void link_walls();
   void conduct_by_shape();
   void step(coupling::HeatState* gas) override;
+  [[nodiscard]] particle_subset::HeatedParticles heated_particles(coupling::HeatState* gas) const;
+  particle_subset::StepPowers step_particles(const particle_subset::HeatedParticles& particles,
+                                             particle_subset::Range range,
+                                             particle_subset::HeatSums& sums);
   void book_heat_of_walls();
   [[nodiscard]] bool has_kept_heat() const;
   void receive_kept_heat(const particle_subset::HeatShown& shown, particle_subset::Range range,
@@ -113,6 +122,21 @@ private:
   // Of each particle and of each thread, of this step.
   std::vector<particle_subset::Resistance> damping_, rubbing_;
   std::vector<std::vector<particle_subset::WallResistance>> at_walls_;
+
+  /// The step of temperature of particles that no other thread sees, as soon as their heat is
+  /// complete.
+  struct StepAhead final : particle_subset::OwnWork {
+    explicit StepAhead(FixHeat& all) : heat(all) {}
+    FixHeat& heat;
+    struct alignas(64) OfThread {
+      particle_subset::Range done;
+      particle_subset::StepPowers powers;
+      double seconds = 0;
+    };
+    std::vector<OfThread> threads; ///< ascending; empty: nothing was done ahead
+    bool begin_own_work(int eflag, int vflag) override;
+    void own_work(int thread, particle_subset::Range block) override;
+  } step_ahead_{*this};
 };
 
 } // namespace granflux::liggghts

@@ -34,8 +34,9 @@ double* target(const HeatArrays& arrays) {
 
 template <HeatMade made>
 HeatBatch<made>::HeatBatch(const HeatOfContacts& heat)
-    : law_(*heat.law), arrays_(heat.arrays), conducts_(law_.options().radius && !arrays_.kept.now),
-      to_(target(arrays_)) {}
+    : law_(*heat.law), arrays_(heat.arrays), to_(target(arrays_)),
+      conducts_(law_.options().radius && !arrays_.kept.now),
+      looked_at_(conducts_ ? arrays_.temperature : to_) {}
 
 /// The columns of friction and damping become what the options count of them.
 template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_groups) {
@@ -49,6 +50,13 @@ template <HeatMade made> void HeatBatch<made>::count_what_is_made(int whole_grou
     if (!law_.options().damping)
       std::fill_n(damping_, whole_groups, 0.0);
   }
+}
+
+template <HeatMade made>
+void HeatBatch<made>::look_at_temperatures(const ContactBatch& b, int count) {
+  const double* const temperature = arrays_.temperature;
+  for (int k = 0; k < count; ++k)
+    warmer_[k] = temperature[b.j[k]] - temperature[b.i[k]];
 }
 
 /// Of a power, what it comes to in the time step.
@@ -133,6 +141,8 @@ void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own) {
     keep(batch, count, own);
     return;
   }
+  if (conducts_)
+    look_at_temperatures(batch, count);
   // Lanes without a pair of their own.
   std::fill(friction_ + count, friction_ + whole_groups, 0.0);
   if constexpr (made == HeatMade::by_any)

@@ -42,10 +42,10 @@ public:
 
   /// Before the forces: of one pair; in advance of each lane, where all particles are of one type.
   void set_constants(int k, int type_i, int type_j) { set_constants(k, law_.pair(type_i, type_j)); }
-  void gather(int k, int i, int j) {
+  /// Calls what will be looked at after the forces: to wait for it now would hold up the rest.
+  void gather(int, int, int j) const {
     __builtin_prefetch(to_ + j, 1);
-    if (conducts_)
-      warmer_[k] = arrays_.temperature[j] - arrays_.temperature[i];
+    __builtin_prefetch(looked_at_ + j);
   }
   /// With the forces, of whole groups of lanes.
   template <class Law> void set(int k, const ContactForce& f) {
@@ -86,6 +86,7 @@ private:
     share_[k] = pair.share;
   }
   void count_what_is_made(int whole_groups);
+  void look_at_temperatures(const ContactBatch& batch, int count);
   void keep(const ContactBatch& batch, int count, Range own);
   void share_out(const ContactBatch::Column& power, int count);
   template <class Radius>
@@ -105,10 +106,11 @@ private:
   };
   const ContactHeat& law_;
   const HeatArrays arrays_;
-  const bool conducts_;
   double* const to_; // what particles get: rates, or energies between steps of temperature
-  HeatSums sums_;    // of this object
-  alignas(64) Column warmer_{}; // j than i
+  const bool conducts_;
+  const double* const looked_at_; // temperatures, if it conducts; else that again
+  HeatSums sums_;                 // of this object
+  alignas(64) Column warmer_{};   // j than i
   // Written before they are read, in every batch: to clear them would cost more than some laws.
   alignas(64) Column per_radius_, inverse_modulus_, overlap_ratio_, share_;
   alignas(64) Column pressing_, overlap_, reduced_radius_;

@@ -30,6 +30,7 @@
 #include "pair_gran.hpp"
 #include "rare_look.hpp"
 #include "team.hpp"
+#include "work_ahead.hpp"
 #include "work_times.hpp"
 
 namespace granflux::particle_subset {
@@ -88,6 +89,14 @@ std::vector<const RareLook*> rare_looks(const LAMMPS_NS::Modify& modify) {
   for (int i = 0; i < modify.nfix; ++i)
     if (const auto* look = dynamic_cast<const RareLook*>(modify.fix[i]))
       found.push_back(look);
+  return found;
+}
+
+std::vector<WorkAhead*> work_ahead(const LAMMPS_NS::Modify& modify) {
+  std::vector<WorkAhead*> found;
+  for (int i = 0; i < modify.nfix; ++i)
+    if (auto* work = dynamic_cast<WorkAhead*>(modify.fix[i]))
+      found.push_back(work);
   return found;
 }
 
@@ -189,6 +198,7 @@ void Verlet::run(int steps) {
     own->hears_all_motion(set_up_ && all_motion_is_own(*modify));
   may_owe_ = fixes_that_may_owe(*modify);
   rare_looks_ = rare_looks(*modify);
+  work_ahead_ = work_ahead(*modify);
   fixes_before_forces_look_at_none_ = look_at_no_forces(*modify);
   may_move_ahead_ = only_own_fixes_at(*modify, PRE_FINAL_INTEGRATE);
   may_clear_ahead_ = fixes_before_forces_look_at_none_ && forces_are_for_motion_alone(*modify);
@@ -416,6 +426,10 @@ void Verlet::compute_forces() {
           fix.end_time_recording();
       });
     }
+  if (may_move_ahead_ && contacts_in_team_)
+    for (WorkAhead* work : work_ahead_)
+      if (OwnWork* part = work->work_ahead())
+        add_part(part, times.integration, [] {});
   const bool ahead = owed_ && may_move_ahead_ && contacts_in_team_ && !team_.looks_back();
   if (ahead)
     add_part(&move_ahead_, times.integration, [] {});

@@ -16,6 +16,7 @@ namespace granflux::particle_subset {
 class FixNveSphere;
 class PairGran;
 class RareLook;
+class WorkAhead;
 
 /// LIGGGHTS' time step: the calls to fixes, pair style, communication and output in the order and
 /// under the conditions of run_style verlet. Forces are cleared by the thread that owns them. Where
@@ -47,6 +48,7 @@ private:
   bool may_clear_ahead_ = false;       // in this run: the forces on them, too
   bool owed_ = false;                  // final_integrate() of this step
   std::vector<const RareLook*> rare_looks_;
+  std::vector<WorkAhead*> work_ahead_; // in this run
   bool fixes_before_forces_look_at_none_ = false;
   SpatialOrder order_;
   WorkLoad load_; // sums over the steps of a run
