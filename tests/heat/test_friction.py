@@ -89,6 +89,22 @@ class SlipToRoll(HostTest):
             self.assertEqual(rows[-1][3:], [0, 0, 0, 300])
 
 
+class SpeedAtTheWallAlone(HostTest):
+    """Friction goes by speed at the wall, by a slider between particles: heat of half a kick looks at
+    forces, which stay until then whether or not there is output to show them."""
+
+    def test_heat_does_not_depend_on_output(self):
+        made = []
+        for every in (1, 400):
+            self.write("data.spheres", data_file([(1, DIAMETER, DENSITY, (0.0, 0.0, resting_height(1e4)), (SPEED, 0, 0), (0, 0, 0))]))
+            text = rolling_script("", mu=0.8, gt=0.05, steps=400, every=every)
+            by_speed = text.replace(wall("floor", "zplane 0"), wall("floor", "zplane 0", tangential="no_history"))
+            self.assertNotEqual(by_speed, text)
+            made.append(thermo_rows(self.run_script(by_speed))[-1][4])
+        self.assertGreater(made[0], 0)
+        self.assertAlmostEqual(made[1] / made[0], 1, delta=1e-12)
+
+
 class RollingFriction(HostTest):
     """A sphere that rolls against a rolling friction m_r loses 7/10 m (v0^2 - v^2), with v = v0 - 5/7 m_r
     g t: all of it is heat."""
