@@ -15,7 +15,6 @@
 
 #include <granflux/coupling/cell_order.hpp>
 #include <granflux/coupling/kernel/kernels.hpp>
-#include <granflux/coupling/packed_numbers.hpp>
 #include <granflux/coupling/placing.hpp>
 
 namespace granflux::coupling {
@@ -220,14 +219,16 @@ template <class T> void ShareLists::deposit(std::span<const T> value, std::span<
   const auto cells = window_.size();
 #pragma omp parallel for schedule(guided)
   for (std::size_t c = 0; c < cells; ++c) {
-    PackedNumbers<numbers> sum, q;
+    std::array<double, numbers> sum{};
     const std::size_t end = by_cell_.end(c);
     for (std::size_t s = by_cell_.begin(c); s < end; ++s) {
       const std::size_t p = items[s] >> row_bits, k = items[s] & ((1u << row_bits) - 1);
-      q.load(from + numbers * p);
-      sum.add(q, share_[parts_[at(p, k)]]);
+      const double share = share_[parts_[at(p, k)]];
+      for (std::size_t v = 0; v < numbers; ++v)
+        sum[v] += share * from[numbers * p + v];
     }
-    sum.store(to + numbers * c);
+    for (std::size_t v = 0; v < numbers; ++v)
+      to[numbers * c + v] = sum[v];
   }
 }
 
@@ -239,18 +240,21 @@ template <class T> void ShareLists::sample(std::span<const T> field, std::span<T
   auto* to = reinterpret_cast<double*>(value.data());
 #pragma omp parallel for schedule(static)
   for (std::size_t p = 0; p < particles_; ++p) {
-    PackedNumbers<numbers> sum, q;
+    std::array<double, numbers> sum{};
     if (entries_[p] > 0) {
       const auto add = [&](std::size_t k) {
-        q.load(from + numbers * cell_[at(p, k)]);
-        sum.add(q, share_[parts_[at(p, k)]]);
+        const double* const q = from + numbers * cell_[at(p, k)];
+        const double share = share_[parts_[at(p, k)]];
+        for (std::size_t v = 0; v < numbers; ++v)
+          sum[v] += share * q[v];
       };
       add(0);
       add(1);
       for (std::size_t k = 2; k < entries_[p]; ++k)
         add(k);
     }
-    sum.store(to + numbers * p);
+    for (std::size_t v = 0; v < numbers; ++v)
+      to[numbers * p + v] = sum[v];
   }
 }
 
