@@ -193,6 +193,10 @@ void HeatBatch<made>::resist(const ContactBatch& b, int count, Range own) const 
 
 template <HeatMade made>
 void HeatBatch<made>::show(const ContactBatch& batch, int count, Range own) const {
+  for (int k = 0; k < count; ++k) { // seldom looked at: they come from far
+    __builtin_prefetch(arrays_.shown.contacts + batch.j[k], 1);
+    __builtin_prefetch(arrays_.shown.details + batch.j[k], 1);
+  }
   const double part = arrays_.part_of_step;
   const auto add_to = [&](int particle, int k, double share, double conduction) {
     if (!own.holds(particle))
