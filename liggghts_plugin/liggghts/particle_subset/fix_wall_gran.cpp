@@ -61,14 +61,14 @@ Vec3* rows(double** array) {
   return array ? reinterpret_cast<Vec3*>(array[0]) : nullptr;
 }
 
-WallTouch wall_touch(int particle, double gap, const double* to_wall, const Vec3& velocity,
-                     double* history) {
-  return {.particle = particle,
-          .gap = gap,
-          .separation = {-to_wall[0], -to_wall[1], -to_wall[2]},
-          .wall_velocity = velocity,
-          .history = history,
-          .force = {}};
+/// Number by number: a whole one copied soon after it was written would wait for that.
+void set_touch(WallTouch& touch, int particle, double gap, const double* to_wall,
+               const Vec3& velocity, double* history) {
+  touch.particle = particle;
+  touch.gap = gap;
+  touch.separation = {-to_wall[0], -to_wall[1], -to_wall[2]};
+  touch.wall_velocity = velocity;
+  touch.history = history;
 }
 
 /// The words of the contact model and its options, which stand before and after those of the wall.
@@ -94,15 +94,17 @@ public:
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
-  void add(const WallTouch& touch, ForceOnMesh* on_mesh) {
-    touch_[count_] = touch;
+  /// Where the next one is written.
+  [[nodiscard]] WallTouch& next() { return touch_[count_]; }
+  /// What was written there is evaluated.
+  void take(ForceOnMesh* on_mesh) {
     on_mesh_[count_] = on_mesh;
     if (++count_ == capacity)
       evaluate();
   }
 
 private:
-  static constexpr std::size_t capacity = 32;
+  static constexpr std::size_t capacity = 64;
 
   void evaluate() {
     if (count_ == 0) // as ever where LIGGGHTS' own law is at work and there is no kernel
@@ -349,24 +351,27 @@ void FixWallGran::own_work(int /*thread*/, Range block) {
 }
 
 void FixWallGran::touch_primitive(Range block) {
+  int* first = nullptr;
+  const int count = primitiveWall_->getNeighbors(first);
+  const std::span<const int> near(first, std::size_t(count)); // ascending
+  auto p = std::lower_bound(near.begin(), near.end(), block.begin);
+  if (p == near.end() || *p >= block.end)
+    return;
   double wall_velocity[3] = {0, 0, 0};
   if (shear_)
     wall_velocity[shearDim_] = vshear_;
   Batch batch(*this, atom_type_wall_, primitive_heat_);
-  int* first = nullptr;
-  const int count = primitiveWall_->getNeighbors(first);
-  const std::span<const int> near(first, std::size_t(count)); // ascending
   // Those near a wall lie apart in memory. All that the other parts of a step read is in the cache.
   constexpr std::ptrdiff_t ahead = 16;
   const int frozen = primitive_stands_ ? frozen_group_ : 0;
+  const int* const groups = igroup == 0 && !frozen ? nullptr : atom->mask; // 0: all
   const double* const histories = dnum() > 0 ? fix_history_primitive_->array_atom[0] : nullptr;
-  for (auto p = std::lower_bound(near.begin(), near.end(), block.begin);
-       p != near.end() && *p < block.end; ++p) {
+  for (; p != near.end() && *p < block.end; ++p) {
     if (histories && near.end() - p > ahead)
       __builtin_prefetch(histories + std::ptrdiff_t(dnum()) * p[ahead], 1);
-    if (!(atom->mask[*p] & groupbit))
+    if (groups && !(groups[*p] & groupbit))
       continue;
-    if (frozen && (atom->mask[*p] & frozen))
+    if (frozen && (groups[*p] & frozen))
       add_standing(standing_, std::size_t(p - near.begin()), *p, [&] {
         Batch alone(*this, atom_type_wall_, primitive_heat_);
         touch_primitive(*p, wall_velocity, alone);
@@ -387,15 +392,14 @@ bool FixWallGran::add_standing(StandingContacts& standing, std::size_t row, int 
   return known;
 }
 
-WallTouch FixWallGran::primitive_touch(int particle, double gap, const double* to_wall,
-                                       const double* wall_velocity, double* history) {
+Vec3 FixWallGran::primitive_velocity(int particle, const double* wall_velocity) {
   double velocity[3] = {wall_velocity[0], wall_velocity[1], wall_velocity[2]};
   if (shear_ && shearAxis_ >= 0) { // a turning cylinder
     double radial[3];
     primitiveWall_->calcRadialDistance(x_[0] + 3 * std::ptrdiff_t(particle), radial);
     LAMMPS_NS::vectorCross3D(shearAxisVec_, radial, velocity);
   }
-  return wall_touch(particle, gap, to_wall, {velocity[0], velocity[1], velocity[2]}, history);
+  return {velocity[0], velocity[1], velocity[2]};
 }
 
 void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Batch& batch) {
@@ -410,27 +414,36 @@ void FixWallGran::touch_primitive(int particle, const double* wall_velocity, Bat
   if (gap > cutneighmax_)
     return;
   if (gap > 0) {
-    if (springs_leave_heat_ &&
-        std::any_of(history, history + dnum(), [](double h) { return h != 0; })) {
-      const WallTouch last = primitive_touch(particle, gap, to_wall, wall_velocity, history);
-      primitive_heat_.add_parted(
-          particle,
-          kernel_->left_at_parting(particles_, last, atom_type_wall_, update->dt) / update->dt);
-    }
-    std::fill_n(history, dnum(), 0.0);
+    leave_primitive(particle, gap, to_wall, wall_velocity, history);
     return;
   }
   if (is_centred(particle, gap, to_wall)) {
     note_centred(particle);
     return;
   }
-  const WallTouch touch = primitive_touch(particle, gap, to_wall, wall_velocity, history);
+  WallTouch& touch = batch.next();
+  set_touch(touch, particle, gap, to_wall, primitive_velocity(particle, wall_velocity), history);
   if (by_kernel_)
-    batch.add(touch, nullptr);
+    batch.take(nullptr);
   else
     touch_by_host(touch, nullptr, 0, nullptr);
   if (makes_heat_ && !by_kernel_)
     primitive_heat_.add(particle, atom->type[particle], atom_type_wall_, radius, -gap, 0, {});
+}
+
+/// What a contact that is no longer one leaves behind, if there was one.
+void FixWallGran::leave_primitive(int particle, double gap, const double* to_wall,
+                                  const double* wall_velocity, double* history) {
+  if (std::all_of(history, history + dnum(), [](double h) { return h == 0; }))
+    return;
+  if (springs_leave_heat_) {
+    WallTouch last;
+    set_touch(last, particle, gap, to_wall, primitive_velocity(particle, wall_velocity), history);
+    primitive_heat_.add_parted(
+        particle,
+        kernel_->left_at_parting(particles_, last, atom_type_wall_, update->dt) / update->dt);
+  }
+  std::fill_n(history, dnum(), 0.0);
 }
 
 void FixWallGran::begin_mesh(int number) {
@@ -530,7 +543,8 @@ void FixWallGran::leave_mesh(const Mesh& mesh, int particle) {
       continue;
     const MeshPlace place = place_on(mesh, particle, triangle);
     const Vec3 velocity = velocity_at(mesh, triangle, place);
-    const WallTouch last = wall_touch(particle, place.gap, place.to_wall, velocity, history);
+    WallTouch last;
+    set_touch(last, particle, place.gap, place.to_wall, velocity, history);
     mesh.heat.add_parted(particle,
                          kernel_->left_at_parting(particles_, last, mesh.wall_type, update->dt) /
                              update->dt);
@@ -616,9 +630,10 @@ void FixWallGran::touch_mesh(const Mesh& mesh, int particle, int triangle, Force
       on_mesh->wall_velocity[d] = wall_velocity[d];
     }
   }
-  const WallTouch touch = wall_touch(particle, place.gap, place.to_wall, wall_velocity, history);
+  WallTouch& touch = batch.next();
+  set_touch(touch, particle, place.gap, place.to_wall, wall_velocity, history);
   if (by_kernel_)
-    batch.add(touch, on_mesh);
+    batch.take(on_mesh);
   else
     touch_by_host(touch, &mesh, triangle, on_mesh);
   if (makes_heat_ && !by_kernel_)

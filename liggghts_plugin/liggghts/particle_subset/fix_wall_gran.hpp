@@ -85,8 +85,9 @@ private:
   [[nodiscard]] HeatOfWall heat_of_wall(LAMMPS_NS::TriMesh* triangles) const;
   void touch_primitive(Range block);
   void touch_primitive(int particle, const double* wall_velocity, Batch& batch);
-  [[nodiscard]] WallTouch primitive_touch(int particle, double gap, const double* to_wall,
-                                          const double* wall_velocity, double* history);
+  [[nodiscard]] Vec3 primitive_velocity(int particle, const double* wall_velocity);
+  void leave_primitive(int particle, double gap, const double* to_wall, const double* wall_velocity,
+                       double* history);
   void begin_mesh(int number);
   void sum_on_mesh(Mesh& mesh);
   void touch_mesh(Mesh& mesh, Range block);
