@@ -20,8 +20,8 @@ def words(normal, tangential="", cohesion="", rolling="", options=""):
     return " ".join(filter(None, ["model", normal, tangential, cohesion, rolling, options]))
 
 
-def dense(cells=7, types=2):
-    return data_file(3 * (cells,), 0.98, 0.1, 50.0, 0.02, types=types)
+def dense(cells=7, types=2, **options):
+    return data_file(3 * (cells,), 0.98, 0.1, 50.0, 0.02, types=types, **options)
 
 
 @unittest.skipUnless(LIGGGHTS, "the stock program liggghts is not installed")

@@ -47,9 +47,9 @@ dump_modify     d sort id format "%d %d{numbers}"
 COLUMNS = ["x", "v", "omega", "f", "torque"]
 
 
-def data_file(cells, spacing, speed, spin, periodic_gap, seed=20, types=2):
+def data_file(cells, spacing, speed, spin, periodic_gap, seed=20, types=2, sizes=(0.85, 1.1)):
     """Spheres on a lattice of `cells` in a box, pushed off their places. spacing: in mean diameters;
-    below 1 most of them touch. periodic_gap: the box is so much longer than the lattice, in spacings."""
+    below 1 most of them touch. sizes: least and largest diameter, in mean ones. periodic_gap: the box is so much longer than the lattice, in spacings."""
     rng = random.Random(seed)
     a = spacing * DIAMETER
     atoms, velocities = [], []
@@ -59,7 +59,7 @@ def data_file(cells, spacing, speed, spin, periodic_gap, seed=20, types=2):
             for i in range(cells[0]):
                 number += 1
                 place = [a * (c + 0.5 + periodic_gap / 2 + 0.08 * rng.uniform(-1, 1)) for c in (i, j, k)]
-                diameter = DIAMETER * rng.uniform(0.85, 1.1)
+                diameter = DIAMETER * rng.uniform(*sizes)
                 kind = rng.randint(1, types)
                 atoms.append(
                     f"{number} {kind} {diameter!r} {2000.0 if kind == 1 else 3000.0} {place[0]!r} {place[1]!r} {place[2]!r}"

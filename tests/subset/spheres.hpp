@@ -41,6 +41,8 @@ struct Spheres {
   std::vector<Vec3> position, velocity, spin, force, torque;
   std::vector<double> radius, mass;
   std::vector<int> type, tag, groups;
+  Alike alike; ///< as somebody has looked
+  int frozen_group = 0;
 
   [[nodiscard]] int count() const { return int(position.size()); }
 
@@ -69,7 +71,8 @@ struct Spheres {
             .type = type.data(),
             .tag = tag.data(),
             .groups = groups.data(),
-            .frozen_group = 0,
+            .alike = alike,
+            .frozen_group = frozen_group,
             .force = force.data(),
             .torque = torque.data()};
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -156,6 +157,36 @@ TEST(ContactLists, BlockAfterBlockGivesTheSameBits) {
     }
     EXPECT_EQ(whole.force, blocks.force) << threads;
     EXPECT_EQ(whole.torque, blocks.torque) << threads;
+  }
+}
+
+TEST(ContactForces, WhatAllHaveInCommonGivesTheSameBits) {
+  Spheres unknown = heap(8, 1.9e-3);
+  constexpr double radius = 1e-3, mass = 8e-6;
+  std::fill(unknown.radius.begin(), unknown.radius.end(), radius);
+  std::fill(unknown.mass.begin(), unknown.mass.end(), mass);
+  std::fill(unknown.type.begin(), unknown.type.end(), 2);
+  const std::array known{Alike{.type = 2}, Alike{.radius = radius, .mass = mass},
+                         Alike{.type = 2, .radius = radius, .mass = mass}};
+  for (const int frozen_group : {0, 1}) {
+    unknown.frozen_group = frozen_group;
+    for (int p = 0; p < unknown.count(); p += 3)
+      unknown.groups[std::size_t(p)] = 2; // free
+    Spheres one = unknown;
+    Contacts contacts(all_laws, two_types(), 2, 2);
+    contacts.build(one, skin);
+    for (int step = 0; step < 3; ++step)
+      contacts.forces(one, dt);
+    for (const Alike& alike : known) {
+      Spheres other = unknown;
+      other.alike = alike;
+      Contacts its(all_laws, two_types(), 2, 2);
+      its.build(other, skin);
+      for (int step = 0; step < 3; ++step)
+        its.forces(other, dt);
+      EXPECT_EQ(one.force, other.force);
+      EXPECT_EQ(one.torque, other.torque);
+    }
   }
 }
 

@@ -154,23 +154,24 @@ fix             ins all insert/pack seed 49979687 distributiontemplate all inser
         self.assertGreater(thermo_rows(ours)[-1][1], 150)
         self.compare_dumps(limit=1e-8)  # two runs of the stock program on 1 and 2 ranks are as far apart
 
-    def test_types_that_change(self):
-        """All of type 2, of two in the tables; then commands between runs, and insertion, bring in type 1."""
-        all_of_type_2 = "set group all type 2\n"
+    def test_what_is_alike_and_is_no_more(self):
+        """All of one size, and of type 2 of two in the tables; then commands between runs, and insertion,
+        bring in others."""
         floor = f"fix floor all wall/gran {MODEL} primitive type 1 zplane 0.0\n"
         text = script("PROGRAM.txt", MODEL, boundary="p p f", more="group some id 10:60", runs=(40,), step=1e-5)
-        text = text.replace("thermo_style", all_of_type_2 + floor + "thermo_style", 1)
+        text = text.replace("thermo_style", "set group all type 2\n" + floor + "thermo_style", 1)
         text = text.replace("dump_modify     d sort id", "dump_modify     d first no sort id")
-        text += "set group some type 1\nrun 40 pre no\n" + all_of_type_2 + "run 20 pre no\n"
+        for change in ("type 1", "type 2", "diameter 0.00206", "diameter 0.002", "density 2500", "density 2000"):
+            text += f"set group some {change}\nrun 15 pre no\n"
         text += """
 fix             one all particletemplate/sphere 15485863 atom_type 1 density constant 2000 radius constant 0.0008
 fix             all all particledistribution/discrete 32452843 1 one 1.0
 region          above block 0.001 0.009 0.001 0.009 0.0105 0.014 units box
-fix             ins all insert/pack seed 49979687 distributiontemplate all insert_every once start 125 overlapcheck yes &
+fix             ins all insert/pack seed 49979687 distributiontemplate all insert_every once start 155 overlapcheck yes &
                 vel constant 0 0 -3 region above particles_in_region 25
 run             100
 """
-        box = dense(cells=5).splitlines()
+        box = dense(cells=5, types=1, sizes=(1, 1)).replace("1 atom types", "2 atom types").splitlines()
         self.write("data.box", "\n".join("0 0.03 zlo zhi" if "zlo zhi" in line else line for line in box) + "\n")
         stock, ours = self.run_both(text)
         self.assertIn(BY_SUBSET, ours)
@@ -186,10 +187,13 @@ compute         radius all property/atom radius
 variable        grown atom 1.004*2*c_radius
 fix             grow all adapt 7 atom diameter v_grown
 """
-        self.write("data.box", data_file((7, 7, 7), 1.03, 0.5, 50.0, 0.02))
-        _, ours = self.run_both(script("PROGRAM.txt", MODEL, more=more, runs=(100,), step=5e-6))
-        self.assertIn(BY_SUBSET, ours)
-        self.compare_dumps()
+        for sizes, types in (((0.85, 1.1), 2), ((1, 1), 1)):
+            with self.subTest(sizes=sizes):
+                box = data_file((7, 7, 7), 1.03, 0.5, 50.0, 0.02, sizes=sizes, types=types)
+                self.write("data.box", box.replace("1 atom types", "2 atom types"))
+                _, ours = self.run_both(script("PROGRAM.txt", MODEL, more=more, runs=(100,), step=5e-6))
+                self.assertIn(BY_SUBSET, ours)
+                self.compare_dumps()
 
     def test_change_of_path(self):
         """Contacts keep their memory when a run goes by LIGGGHTS' own loop, and when the next does not."""

@@ -7,25 +7,39 @@
 #include <cstddef>
 
 #include "contact_law.hpp"
+#include "four.hpp"
 
 namespace granflux::particle_subset {
 
 /// Touching pairs side by side, an array per number, so that a law runs on vector registers. Small
 /// enough to stay in the first-level cache.
 struct ContactBatch {
-  static constexpr int capacity = 64;
-  static constexpr int lanes = 8; ///< evaluated together: the widest vector register
-  static_assert(capacity % lanes == 0);
+  static constexpr int full = 48;     ///< pairs of a batch, but of the last one of a row of batches
+  static constexpr int capacity = 64; ///< full ones and those that are found in one go
+  static constexpr int lanes = 8;     ///< evaluated together: the widest vector register
+  static_assert(full % lanes == 0 && capacity % lanes == 0);
 
   using Column = double[capacity];
   struct alignas(64) Vectors {
     Column x, y, z;
     [[nodiscard]] Vec3 at(int k) const { return {x[k], y[k], z[k]}; }
     void set(int k, const Vec3& v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+    /// Of four pairs from k on, a multiple of four.
+    void set_four(int k, FourRows& rows) {
+      transpose(rows);
+      put(rows[0], x + k), put(rows[1], y + k), put(rows[2], z + k);
+    }
   };
+
+  static void put(const Four& numbers, double* column) {
+    *static_cast<Four*>(__builtin_assume_aligned(column, sizeof(Four))) = numbers;
+  }
+  /// As many pairs as are in the groups of lanes that hold `count`.
+  [[nodiscard]] static int whole_groups(int count) { return (count + lanes - 1) / lanes * lanes; }
 
   // Which pair: numbers of the particles, entry in the rows it comes from.
   int i[capacity], j[capacity], entry[capacity];
+  Four measured[capacity]; ///< as pairs are found: separation, distance squared
   Vectors separation;
   alignas(64) Column distance_squared;
   Vectors velocity, spin_i, spin_j;
@@ -83,10 +97,9 @@ template <class Law, bool one_material, class Heat>
 [[gnu::flatten]] void evaluate(ContactBatch& b, int count,
                                const BatchConstants<Law, one_material>& constants, double dt,
                                Heat& heat) {
-  const int whole_groups =
-      (count + ContactBatch::lanes - 1) / ContactBatch::lanes * ContactBatch::lanes;
+  const int whole = ContactBatch::whole_groups(count);
 #pragma GCC ivdep
-  for (int k = 0; k < whole_groups; ++k) {
+  for (int k = 0; k < whole; ++k) {
     Vec3 tangential = b.tangential_history.at(k), rolling = b.rolling_history.at(k);
     const ContactForce f = Law::force(constants.at(k), b.pair(k), dt, tangential, rolling);
     b.force.set(k, f.force);

@@ -291,6 +291,7 @@ bool FixWallGran::begin_own_work(int /*eflag*/, int /*vflag*/) {
                 .type = atom->type,
                 .tag = atom->tag,
                 .groups = atom->mask,
+                .alike = {},
                 .force = rows(atom->f),
                 .torque = rows(atom->torque)};
   if (!by_kernel_ && !all_of_one_type())

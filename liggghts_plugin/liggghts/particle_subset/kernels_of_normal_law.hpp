@@ -87,7 +87,7 @@ private:
   void with_heat(const Particles& particles, ThreadContacts& contacts, double dt,
                  const typename Heat::Source& heat, auto&& work) const {
     const auto* constants = constants_.data();
-    if (types_ == 1 || particles.common_type) {
+    if (types_ == 1 || particles.alike.type) {
       ContactForces<Law, true, Heat> forces(particles, contacts, constants, types_, dt, heat);
       work(forces);
     } else {

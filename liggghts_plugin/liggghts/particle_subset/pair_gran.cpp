@@ -26,7 +26,7 @@
 #include <granflux/cfd/error.hpp>
 #include <granflux/coupling/throw_together.hpp>
 
-#include "common_type.hpp"
+#include "alike.hpp"
 #include "contact_report.hpp"
 #include "fix_contact_history.hpp"
 #include "host_material.hpp"
@@ -156,20 +156,23 @@ Particles PairGran::particles() const {
           .type = atom->type,
           .tag = atom->tag,
           .groups = atom->mask,
-          .common_type = common_type_,
+          .alike = alike_,
           .frozen_group = freeze_group_bit(),
           .force = rows(atom->f),
           .torque = rows(atom->torque)};
 }
 
-/// Types change where lists are built, or by a command before a run that builds none.
-void PairGran::look_at_types() {
-  common_type_ = common_type(atom->type, atom->nlocal + atom->nghost);
+/// Types and sizes change where lists are built, or by a command before a run that builds none;
+/// sizes, and those only, also by fixes.
+void PairGran::look_what_is_alike() {
+  alike_ = find_alike(particles());
+  if (atom->radvary_flag || !sizes_stay(*modify))
+    alike_.radius = alike_.mass = 0;
 }
 
-void PairGran::look_at_types_of_new_run() {
+void PairGran::look_what_is_alike_in_new_run() {
   if (update->ntimestep <= update->firststep + 1)
-    look_at_types();
+    look_what_is_alike();
 }
 
 bool PairGran::begin_own_work(int eflag, int vflag) {
@@ -180,7 +183,7 @@ bool PairGran::begin_own_work(int eflag, int vflag) {
     return false;
   computeflag_ = 1;
   evflag = vflag_fdotr = 0;
-  look_at_types_of_new_run();
+  look_what_is_alike_in_new_run();
   if (heat_)
     heat_now_ = heat_->heat_of_contacts();
   return true;
@@ -258,7 +261,7 @@ void PairGran::build_lists() {
   PartnerHistory kept;
   if (auto* fix = dynamic_cast<FixContactHistory*>(fix_history))
     kept = fix->arrays();
-  look_at_types();
+  look_what_is_alike();
   const double reach = near_heat_ ? near_heat_->reach() : 0;
   // Forces between frozen particles move nothing; heat does go through their contacts.
   const int at_rest = heat_ || near_heat_ ? 0 : freeze_group_bit();
@@ -322,7 +325,7 @@ void PairGran::compute_force(int eflag, int vflag, int addflag) {
     PairGranProxy::compute_force(eflag, vflag, addflag);
     return;
   }
-  look_at_types_of_new_run();
+  look_what_is_alike_in_new_run();
   if (!only_forces_wanted(eflag, vflag, addflag)) {
     if (heat_ && computeflag() && shearupdate() && !addflag)
       add_heat_alone();

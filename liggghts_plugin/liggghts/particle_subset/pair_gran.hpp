@@ -73,8 +73,8 @@ private:
   void refuse_coincident() const;
   void add_parted_heat();
   void show_lists_to_host();
-  void look_at_types();
-  void look_at_types_of_new_run();
+  void look_what_is_alike();
+  void look_what_is_alike_in_new_run();
   [[nodiscard]] Particles particles() const;
   [[nodiscard]] bool only_forces_wanted(int eflag, int vflag, int addflag);
 
@@ -87,7 +87,7 @@ private:
   HeatOfContacts heat_now_;       // of this step
   std::vector<double> facing_;    // of NearHeat, of each owned particle
   ContactLists lists_;
-  int common_type_ = 0; // of all particles and ghosts; 0: there are several
+  Alike alike_; // as of the last look
   // The same lists in the form in which LIGGGHTS' loop, fixes and computes read them.
   std::unique_ptr<LAMMPS_NS::NeighList> shown_, shown_history_;
 };

@@ -6,6 +6,12 @@
 
 namespace granflux::particle_subset {
 
+/// What all particles and ghosts have in common; 0: they differ in it, or nobody has looked.
+struct Alike {
+  int type = 0;
+  double radius = 0, mass = 0; ///< both or none
+};
+
 /// Arrays of the host, borrowed: the particles of this rank first, then the ghosts.
 struct Particles {
   int owned = 0; ///< of this rank
@@ -18,7 +24,7 @@ struct Particles {
   const int* type = nullptr; ///< from 1 on
   const int* tag = nullptr;  ///< the same for a particle and its ghosts
   const int* groups = nullptr;
-  int common_type = 0;   ///< of all of them; 0: there are several, or nobody has looked
+  Alike alike;
   int frozen_group = 0;  ///< bit of the particles that count as of infinite mass, or 0
   Vec3* force = nullptr; ///< of owned particles: added to
   Vec3* torque = nullptr;
