@@ -97,13 +97,11 @@ private:
     bool all = true;
     for (int k = 0; k < count; ++k) {
       const int tag = kept_.partner[i][k], j = kept_.partner[i][count + k];
-      const int e = j < particles_.all && particles_.tag[j] == tag
-                        ? find_in_row(upper.partner, begin, end, j)
-                        : end;
-      if (e == end)
-        all = false;
-      else
+      const bool same = j > i && j < particles_.all && particles_.tag[j] == tag;
+      const int e = same ? find_in_row(upper.partner, begin, end, j) : end;
+      if (e < end) // else it has gone too far, if it is the same
         restore(upper, e, {i, j, kept_.history[i] + std::ptrdiff_t(k) * size_}, 1, parted);
+      all &= same;
     }
     return all;
   }
