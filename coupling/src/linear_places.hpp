@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -19,11 +20,14 @@ public:
   static constexpr std::size_t together = 16; ///< points: as many integers are in a register
 
   /// Of points whose lower cells are in `lower_cells`, part of the window that numbers them.
-  /// Nothing where cells along a direction are of several lengths, or one without a period.
+  /// Nothing where there are none, where cells along a direction are of several lengths, or one
+  /// without a period.
   [[nodiscard]] static std::optional<LinearPlaces>
   make(const LatticeLocator& lattice, const Window& window, const Window& lower_cells) {
     const auto [nx, ny, nz] = window.extent();
     const std::array<int, 3> stride{1, nx, nx * ny}, extent = lower_cells.extent();
+    if (*std::ranges::min_element(extent) <= 0) // there was no particle yet
+      return std::nullopt;
     LinearPlaces all;
     for (std::size_t i = 0; i < numbers; ++i) {
       const std::size_t d = i % 3;
