@@ -38,7 +38,8 @@ function(granflux_add_test name)
     foreach(threads IN LISTS arg_THREADS)
       set(test ${name}.r${ranks}.t${threads})
       math(EXPR processors "${ranks} * ${threads}")
-      if(processors GREATER 4) # each number of ranks and of threads has been tried with fewer of the other
+      # Each number of ranks and of threads has then been tried with fewer of the other.
+      if(processors GREATER 4)
         continue()
       endif()
       math(EXPR ctest_timeout "${arg_TIMEOUT} + 20")

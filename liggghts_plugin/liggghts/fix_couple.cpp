@@ -194,7 +194,7 @@ void FixCouple::pre_final_integrate() {
   });
 }
 
-/// It takes as long as half of the exchange: only where somebody looks.
+/// A pass over the states of all particles: only where somebody looks.
 void FixCouple::fill_outputs() {
   if (!fluid_)
     return;

@@ -210,6 +210,31 @@ TEST(Weights, NoParticles) {
   weights.sample<double>({}, {});
 }
 
+// Where all cells are equal, particles are placed together on vector registers. The window of a
+// rank whose particles were all outside has no cells.
+TEST(Weights, ParticlesInsideAfterNoneWas) {
+  cfd::Lattice lattice = sample_lattice({false, false, false});
+  lattice.nodes[1] = cfd::uniform_nodes(1, 2, 7);
+  lattice.nodes[2] = cfd::uniform_nodes(0, 1.5, 5);
+  const auto cloud = random_cloud(lattice, 96); // none is left over, to be placed alone
+  auto outside = cloud.position;
+  for (Vec3& x : outside)
+    x.y += 10;
+  for (const auto name : VoidFractionKernels::names) {
+    SCOPED_TRACE(name);
+    const AnyKernel kernel = VoidFractionKernels::make("void_fraction", name);
+    Weights weights, fresh;
+    weights.build(kernel, LatticeLocator(lattice), outside, cloud.radius);
+    EXPECT_EQ(weights.placed_count(), 0u);
+    weights.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+    fresh.build(kernel, LatticeLocator(lattice), cloud.position, cloud.radius);
+    EXPECT_EQ(weights.placed_count(), cloud.position.size());
+    EXPECT_EQ(weights.window().lo, fresh.window().lo);
+    EXPECT_EQ(weights.window().hi, fresh.window().hi);
+    EXPECT_EQ(deposit(weights, cloud.value), deposit(fresh, cloud.value));
+  }
+}
+
 // A rank whose particles sit together has a small window, also across a periodic face, and also
 // where the host has not wrapped them for long.
 TEST(Weights, WindowIsTight) {

@@ -134,8 +134,7 @@ void HeatBatch<made>::take_off_others(const ContactBatch& b, int count, Range ow
 
 template <HeatMade made>
 void HeatBatch<made>::add(const ContactBatch& batch, int count, Range own) {
-  constexpr int lanes = ContactBatch::lanes;
-  const int whole_groups = (count + lanes - 1) / lanes * lanes;
+  const int whole_groups = ContactBatch::whole_groups(count);
   count_what_is_made(whole_groups);
   if (arrays_.kept.now) {
     keep(batch, count, own);

@@ -36,10 +36,9 @@ template <class Law, bool one_material, class Made>
 [[gnu::flatten]] void evaluate(WallBatch& b, int count,
                                const BatchConstants<Law, one_material>& constants, double dt,
                                Made& made) {
-  const int whole_groups =
-      (count + ContactBatch::lanes - 1) / ContactBatch::lanes * ContactBatch::lanes;
+  const int whole = ContactBatch::whole_groups(count);
 #pragma GCC ivdep
-  for (int k = 0; k < whole_groups; ++k) {
+  for (int k = 0; k < whole; ++k) {
     Vec3 tangential = b.tangential_history.at(k), rolling = b.rolling_history.at(k);
     const auto f = Law::force(constants.at(k), b.touched(k), dt, tangential, rolling);
     b.force.set(k, f.force);
